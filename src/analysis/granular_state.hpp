@@ -22,8 +22,7 @@ double inertial_number(double shear_rate, double pressure, double diameter, doub
 std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density);
 
 /// Share of the particles taken whose inertial number is below 1e-2; nan if there are none.
-double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken,
-                      const MassRatios& weight = {});
+double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken, const MassRatios& weight = {});
 
 /// Which particles count as quasi-static grains.
 struct QuasistaticRule {

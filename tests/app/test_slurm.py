@@ -98,8 +98,8 @@ class Slurm(ProgramTest):
         self.assertIn("is there already", self.launch("--out", "here", status=2, command="run").stderr)
 
     def test_a_run_that_cannot_be_is_refused_before_it_waits(self):
-        said = self.launch("--out", "r", "--nodes", 4, command="run", status=2).stderr
-        self.assertIn("on one process only", said)
+        said = self.launch("--out", "r", "--nodes", 5000, command="run", status=2).stderr
+        self.assertIn("grains for 5000 processes", said)
         said = self.launch("--out", "r", "--set", "particles.count=-1", "--set", "run.end=-1 s", command="run", status=2)
         self.assertIn("2 problems", said.stderr)
         self.assertFalse((self.folder / "submitted").exists())

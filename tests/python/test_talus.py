@@ -172,7 +172,7 @@ class OfASector(unittest.TestCase):
         floor = walls["patch"] == 1
         np.testing.assert_allclose(abs(np.asarray(walls.normals)[floor]), [[0, 0, 1]] * floor.sum(), atol=1e-12)
         self.read.write_element_loads(self.folder / "loads.csv")
-        header, *rows = (self.folder / "loads.csv").read_text().splitlines()
+        header, *rows = (self.folder / "loads.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(len(rows), len(walls.corners))
         names = header.split(",")
         self.assertIn("pressure_at_rest [Pa]", names)
@@ -184,7 +184,7 @@ class OfASector(unittest.TestCase):
 
     def test_loads_by_element_have_the_run_and_the_code(self):
         self.read.write_element_loads(self.folder / "elements.csv")
-        header, *rows = (self.folder / "elements.csv").read_text().splitlines()
+        header, *rows = (self.folder / "elements.csv").read_text(encoding="utf-8").splitlines()
         of = dict(zip((name.split(" ")[0] for name in header.split(",")), np.array([row.split(",") for row in rows], dtype=float).T))
         self.assertIn("en_pressure_discharge [Pa]", header.split(","))
         # What elements carry in flow is what the series has of the wall in that time.
@@ -230,7 +230,7 @@ class Reading(OnARun):
         self.assertEqual(case["bed"]["packing"], 0.6)
 
     def test_series_are_arrays_with_units(self):
-        lines = (self.run_folder / "series.csv").read_text().splitlines()
+        lines = (self.run_folder / "series.csv").read_text(encoding="utf-8").splitlines()
         series = self.read.series
         self.assertEqual(len(series), len(lines) - 1)
         self.assertEqual([f"{n} [{series.units[n]}]" for n in series], lines[0].split(","))
@@ -244,7 +244,7 @@ class Reading(OnARun):
             series["tme"]
 
     def test_summary_and_status(self):
-        written = json.loads((self.run_folder / "summary.json").read_text())
+        written = json.loads((self.run_folder / "summary.json").read_text(encoding="utf-8"))
         self.assertEqual(self.read.status, "done")
         self.assertEqual(set(self.read.summary), set(written["quantities"]))
         for name, value in self.read.summary.items():
@@ -424,7 +424,7 @@ class Installing(unittest.TestCase):
         self.addCleanup(shutil.rmtree, folder)
         shutil.copytree(PROJECT / "python", folder / "source", ignore=shutil.ignore_patterns("__pycache__"))
         offline = ["--no-build-isolation", "--no-deps"]
-        self.assertIn(f"pip install {' '.join(offline)} ./python", (PROJECT / "docs/install.md").read_text())
+        self.assertIn(f"pip install {' '.join(offline)} ./python", (PROJECT / "docs/install.md").read_text(encoding="utf-8"))
         subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", *offline, "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
         names = {path.name for path in (folder / "installed" / "talus").glob("*.py")}
         self.assertEqual(names, {path.name for path in (PROJECT / "python" / "talus").glob("*.py")})

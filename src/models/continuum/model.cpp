@@ -118,8 +118,8 @@ Continuum::Totals Continuum::find_totals() const {
     min_density = std::min(min_density, s.density[i]);
     max_density = std::max(max_density, s.density[i]);
     max_packing = std::max(max_packing, s.packing[i]);
-    const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
-               (x.z > box.high.z);
+    const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) |
+                            (x.z < box.low.z) | (x.z > box.high.z);
     if (is_outside) outside += s.mass_ratio.empty() ? 1 : static_cast<std::uint64_t>(s.mass_ratio[i]);
   }
   Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};

@@ -68,13 +68,13 @@ struct State {
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
   /// Which of the columns below there are. From the case, not fields: without particles every column is empty.
   struct Columns {
-    bool mass_ratio = false, tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
-         deformation_rate = false;
+    bool mass_ratio = false, tag = false, collisional = false, reset_position = false, sector_turns = false,
+         lasting_rate = false, deformation_rate = false;
   } has;
-  double mass = 0;          ///< of a particle, with levels of the finest, kg
+  double mass = 0;           ///< of a particle, with levels of the finest, kg
   double merged_energy = 0;  ///< kinetic, that merging particles lost since the start, J; with levels
-  /// Largest mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from the
-  /// case, not a field.
+  /// Largest mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from
+  /// the case, not a field.
   double impulse_unit = 0;
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;

@@ -75,9 +75,9 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate,
-                  s.mass_ratio},
-                 PairTerms::all);
+  step.gradients(
+      {w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate, s.mass_ratio},
+      PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
   step.density();

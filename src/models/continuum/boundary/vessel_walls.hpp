@@ -153,7 +153,7 @@ class VesselWalls {
   std::vector<std::uint32_t> parts_;    // of the records
   std::vector<std::uint32_t> patches_;  // of the parts
   WallVisibility visibility_;           // of the records
-  std::size_t sets_;  // of points
+  std::size_t sets_;                    // of points
   std::array<std::optional<CellGrid>, max_sets_of_points> grids_;
   std::array<std::uint32_t, max_sets_of_points> first_record_{};
   std::vector<std::uint32_t> near_;         // records near the particles, by stand, padded to whole registers

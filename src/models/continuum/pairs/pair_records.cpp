@@ -140,7 +140,10 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
-    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, particles.mass_ratio_of(i) * options_.mass / density};
+    motion_[i] = {{x.x, x.y, x.z},
+                  0.5 * particles.smoothing_length[i],
+                  {u.x, u.y, u.z},
+                  particles.mass_ratio_of(i) * options_.mass / density};
     if (!stresses) return;
     const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
     stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, options_.tension ? tension_of(s) : 0};

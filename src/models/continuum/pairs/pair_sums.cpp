@@ -43,8 +43,8 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
       damps_(setup.given.sph.hourglass_damping > 0 || setup.given.sph.viscosity_speed == ViscositySpeed::local),
       local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
       lists_(domain, vessel),
-      vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields,
-              setup.sector(), static_cast<int>(setup.given.levels.count)),
+      vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields, setup.sector(),
+              static_cast<int>(setup.given.levels.count)),
       walls_(vessel_, lists_, constants_, local_sound_speed_),
       records_(
           {mass_, grain_density_, stress_form_, precision_, constants_.artificial_stress > 0, !vessel.is_empty()}) {
@@ -61,8 +61,9 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
   }
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
   if (diffuses_)
-    density_gradients_ = TALUS_COMPILED_FOR(set, sum_neighbours)(
-        PairTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked, masses_);
+    density_gradients_ =
+        TALUS_COMPILED_FOR(set, sum_neighbours)(PairTerms::gradients, Stabilisers::prepared, precision_,
+                                                StressAround::unasked, StressGradient::unasked, masses_);
 }
 
 bool PairSums::are_stabilised(PairTerms terms) const {
@@ -81,8 +82,7 @@ void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> 
     return;
   }
   if (!mass_ratio.empty()) {
-    for_each(team, density.size(),
-             [&](std::size_t i) { length[i] = smoothing_length(density[i], mass_ratio[i]); });
+    for_each(team, density.size(), [&](std::size_t i) { length[i] = smoothing_length(density[i], mass_ratio[i]); });
     return;
   }
   for_each_chunk(team, density.size(), [&](std::size_t first, std::size_t end) {
@@ -194,7 +194,8 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
       const std::size_t i = first + n;
       rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
       if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
-      rates.kernel_density[i] = sums[n].kernel_density + particles.mass_ratio_of(i) * mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      rates.kernel_density[i] = sums[n].kernel_density + particles.mass_ratio_of(i) * mass_ *
+                                                             sph::cubic_spline(0.0, particles.smoothing_length[i]);
       std::copy_n(sums[n].wall_acceleration, lists_.first_wall()[i + 1] - lists_.first_wall()[i],
                   rates.by_walls.value.data() + lists_.first_wall()[i]);
     }

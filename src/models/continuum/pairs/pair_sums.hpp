@@ -35,7 +35,8 @@ class PairSums {
                               std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
-  /// of the skin \param mass_ratio of the particles, empty: 1 \param part, halo of the particles that other processes own; the halo outlives the lists
+  /// of the skin \param mass_ratio of the particles, empty: 1 \param part, halo of the particles that other processes
+  /// own; the halo outlives the lists
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
                        std::span<const double> margin, std::span<const double> mass_ratio = {},
                        const PartOfPoints& part = {}, Halo* halo = nullptr);

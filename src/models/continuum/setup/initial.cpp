@@ -8,8 +8,8 @@
 #include "base/random.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/splitting.hpp"
 #include "models/continuum/setup/wall_fitting.hpp"
+#include "models/continuum/splitting.hpp"
 #include "models/continuum/step.hpp"
 
 namespace talus::continuum {
@@ -55,7 +55,8 @@ State initial_state(const Setup& setup, int part, int parts) {
   State state;
   state.mass = setup.lattice.mass;
   // A merged particle may have half as much again as its level.
-  state.impulse_unit = state.mass * setup.sound_speed * (parameters.levels.count > 0 ? std::exp2(3 * parameters.levels.count + 1) : 1);
+  state.impulse_unit =
+      state.mass * setup.sound_speed * (parameters.levels.count > 0 ? std::exp2(3 * parameters.levels.count + 1) : 1);
   state.has = {.mass_ratio = parameters.levels.count > 0,
                .tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,

@@ -394,8 +394,7 @@ std::vector<Problem> check(const Parameters& given) {
     return of_bed;
   });
   if (problems.empty() && !p.beds.empty()) check_beds_together(*layout, problems);
-  if (problems.empty()) problems = check_levels(*layout);
-  return problems;
+  return problems.empty() ? check_levels(*layout) : problems;
 }
 
 }  // namespace talus::continuum

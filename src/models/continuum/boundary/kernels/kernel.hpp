@@ -55,8 +55,8 @@ struct WallKernels {
   /// \param place of the particle, in quanta; \param h its smoothing length, m
   void (*points)(const WallPoints& points, const std::uint32_t* place, double h, WallTotals& totals);
   /// The acceleration of a particle along a part of a wall by the images of others there (pairs/wall_sums.hpp).
-  /// \param mass of a particle, kg, 0: each has that of its volume and density; \param acceleration 3 numbers and one of
-  /// no meaning, aligned, m/s^2
+  /// \param mass of a particle, kg, 0: each has that of its volume and density; \param acceleration 3 numbers and one
+  /// of no meaning, aligned, m/s^2
   void (*images)(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
                  const WallPairs& others, double mass, double* acceleration);
 };

@@ -171,8 +171,8 @@ using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const
 using VelocityGradients = void(const ParticleSums* sums, double (*gradient)[ParticleSums::together]);
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
-/// \param stabilisers prepared: of `gradients` only \param masses unequal: all sums read stresses, and none is asked for
-/// the stress around
+/// \param stabilisers prepared: of `gradients` only \param masses unequal: all sums read stresses, and none is asked
+/// for the stress around
 using ChooseSumNeighbours = SumNeighbours(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
                                           StressAround stress_around, StressGradient stress_gradient, Masses masses);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;

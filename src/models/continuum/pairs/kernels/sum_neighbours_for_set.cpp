@@ -283,11 +283,11 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   }
 }
 
-template <class Real, Masses masses, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
+template <class Real, Masses masses, Stabilisers stabilisers, StressAround stress_around,
+          StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(PairTerms terms) {
   constexpr StressAround unasked = StressAround::unasked;
-  return terms == PairTerms::all
-             ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient, masses>
+  return terms == PairTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient, masses>
          : terms == PairTerms::gradients
              ? sum_neighbours<Real, true, false, stabilisers, unasked, StressGradient::unasked, masses>
              : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient, masses>;
