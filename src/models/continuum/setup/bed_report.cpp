@@ -150,8 +150,8 @@ BedReport report_of_bed(const Layout& layout) {
   const Parameters& p = layout.given;
   const double count = bed_count(layout);
   BedReport report;
-  report.particles = layout.copies * count;
-  report.mass = report.particles * layout.lattice.mass;
+  report.particles = layout.copies * std::round(share_of_particles(layout) * count);
+  report.mass = layout.copies * count * layout.lattice.mass;
   const Layout shown = count > max_reported ? Layout(coarser(layout, max_reported)) : layout;
   const std::vector<Vector3> positions = bed_positions(shown);
   if (positions.empty()) return report;
