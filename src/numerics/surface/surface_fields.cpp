@@ -21,8 +21,6 @@ constexpr double area_of_edge = 1.0 / 18;  // of triangles of a mesh, over the s
 
 constexpr double max_cells = 2e6;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Calls visit(number of the triangle, piece) for pieces of the surface without an edge longer than a length, m, nor an
 /// area above one, m^2.
 template <class Visit>
@@ -79,7 +77,8 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
 void SurfaceFields::find_areas(const Surface& surface, const Vector3& low, const Vector3& high) {
   const std::size_t copies = sector_ ? static_cast<std::size_t>(sector_->copies()) : 1, own = fields_.size() / copies;
   std::vector<double> area(own, 0.0);
-  for_each_piece(surface, max_piece * size_, infinity, [&](std::uint32_t t, const Triangle& piece) {
+  const double any = std::numeric_limits<double>::infinity();
+  for_each_piece(surface, max_piece * size_, any, [&](std::uint32_t t, const Triangle& piece) {
     const Vector3 x = piece.middle();
     for (int axis = 0; axis < 3; ++axis)
       if (x[axis] < low[axis] || x[axis] > high[axis]) return;
