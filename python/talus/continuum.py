@@ -62,8 +62,9 @@ class Continuum:
 
     @cached_property
     def particles(self):
-        """Their number at the start."""
-        return len(self.run.snapshots[0].positions)
+        """Their number at the start; with levels in those of the finest."""
+        first = self.run.snapshots[0]
+        return float(first["mass_ratio"].sum()) if "mass_ratio" in first else len(first.positions)
 
     @cached_property
     def particle_mass(self):
@@ -135,6 +136,8 @@ class ContinuumSnapshot:
 
     def grains(self, frame):
         of, sph = self.of, self.of.run.case["sph"]
+        if "mass_ratio" in frame:
+            raise NotEvaluated("its particles have several sizes")
         length = None
         if sph["smoothing"] == "fixed":
             length = np.cbrt(of.particle_mass / (float(of.run.case["bed"]["packing"]) * of.grain_density))
