@@ -23,8 +23,8 @@ using continuum::Accuracy;
 constexpr int copies[] = {36, 30, 24, 20, 18, 15, 12, 10, 9, 8, 6, 5, 4};
 constexpr double across_outlet[] = {8, 12, 20};          // particles, by Accuracy
 constexpr double trial_spacings[] = {25, 50, 100, 200};  // on the width of the box, while the outlet is not known
-constexpr int max_levels = 2;
-constexpr std::int64_t across_vessel = 16;  // of the coarsest particles, at least
+constexpr int max_levels = 1;                            // coarser ones arch over an outlet of twelve of the finest
+constexpr std::int64_t across_vessel = 16;               // of the coarsest particles, at least
 constexpr const char* option = "accuracy";
 
 CaseFile with(CaseFile file, const std::string& setting) {
