@@ -110,9 +110,9 @@ double balance_error(const HopperRun& run, const Window& window);
 /// Those measures of hopper_measures() that are of a vessel in space.
 std::vector<Measure<HopperRun>> hopper_vessel_measures();
 
-/// Mean speed of the particles at the height and above. \param speed of each, nan where not known; those do not count.
-/// \returns nan without any
-double mean_speed_above(double height, std::span<const Vector3> positions, std::span<const double> speed);
+/// Mean speed, by mass, of the particles at the height and above. \param speed of each, nan where not known; those do
+/// not count. \returns nan without any
+double mean_speed_above(double height, const Snapshot& now, std::span<const double> speed);
 /// The stress across the upright walls of the settled bed over its vertical stress there, of the bands that it fills;
 /// nan without such walls, or without a snapshot of it.
 double wall_pressure_ratio(const HopperRun& run, const Window& window);

@@ -138,7 +138,8 @@ const std::vector<Row> of_grains = {
         "Q less its centred mean over T, a hundred values in T: mean time between its passages upwards through 0",
         {crossing_period_of_discharge}, {outlet, while_it_flows}),
     Row("inertial_share", "1",
-        "share of the particles above the outlet with I = γ̇ D √(ρ_p/p) below 10⁻²; without pressure I is infinite",
+        "share by mass of the particles above the outlet with I = γ̇ D √(ρ_p/p) below 10⁻²; without pressure I is "
+        "infinite",
         at(inertial_share), {always, while_it_flows}),
     Row("velocity_gradient_shear_max", "1",
         "(D/g)^½ times the largest |∂u_i/∂x_j|, i ≠ j, of the particles with packing above 0.5, corrected gradient, "

@@ -118,11 +118,13 @@ double wall_pressure_ratio(const HopperRun& run, const Window&) {
   return of_bed > 0 ? of_walls / of_bed : none;
 }
 
-double mean_speed_above(double height, std::span<const Vector3> positions, std::span<const double> speed) {
-  double sum = 0, count = 0;
+double mean_speed_above(double height, const Snapshot& now, std::span<const double> speed) {
+  const auto positions = now.positions();
+  const MassRatios ratios = now.mass_ratios();
+  double sum = 0, mass = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (positions[i].z >= height && std::isfinite(speed[i])) sum += speed[i], ++count;
-  return sum / count;
+    if (positions[i].z >= height && std::isfinite(speed[i])) sum += ratios[i] * speed[i], mass += ratios[i];
+  return sum / mass;
 }
 
 namespace {
@@ -187,11 +189,11 @@ double share_that_moves(const HopperSnapshot& s) {
   const std::vector<double> speed = mean_speeds(*before, s.now);
   const auto positions = s.now.positions();
   const MassRatios ratios = s.now.mass_ratios();
-  const double outlet = s.shape().outlet->height, rests = hardly * mean_speed_above(outlet, positions, speed);
+  const double outlet = s.shape().outlet->height, rests = hardly * mean_speed_above(outlet, s.now, speed);
   double above = 0, moving = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    // Parts of a particle that has split since the last snapshot are not known.
-    if (positions[i].z < outlet || (!ratios.of.empty() && !std::isfinite(speed[i]))) continue;
+    // The speed of what has come in or split since the last snapshot is not known.
+    if (positions[i].z < outlet || !std::isfinite(speed[i])) continue;
     above += ratios[i];
     if (speed[i] > rests) moving += ratios[i];
   }
@@ -226,7 +228,8 @@ std::vector<Row> hopper_vessel_measures() {
           {[](const Run& r, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
           {hand_formula}),
       Row("share_that_moves", "1",
-          "share of the particles above the outlet that are faster than a tenth of their mean; speed: displacement "
+          "share by mass of the particles above the outlet that are faster than a tenth of their mean; speed: "
+          "displacement "
           "since the snapshot about T before, over the time between. From 0.99 on it is mass flow, below that funnel "
           "flow; none before 10 % have been discharged, or where the flow had stopped",
           {share_in_motion, share_that_moves}, {vessel_with_outlet, while_it_flows}),

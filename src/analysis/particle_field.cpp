@@ -76,10 +76,10 @@ void ParticleField::for_each_near(const Vector3& x, Visit&& visit) const {
 }
 
 double ParticleField::packing(const Vector3& x) const {
+  const MassRatios ratios{particles_.mass_ratio};
   double sum = 0;
   for_each_near(x, [&](std::uint32_t j, const Image&, const Vector3& d) {
-    const double ratio = particles_.mass_ratio.empty() ? 1 : particles_.mass_ratio[j];
-    sum += ratio * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
+    sum += ratios[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
   });
   return particles_.solid_volume * sum;
 }

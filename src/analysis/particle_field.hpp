@@ -26,9 +26,7 @@ struct Particles {
   double solid_volume = 0;               ///< of the grains of a particle of mass ratio 1, m^3
   std::vector<double> mass_ratio = {};   ///< of each particle; empty: 1
 
-  double solid_volume_of(std::size_t i) const {
-    return mass_ratio.empty() ? solid_volume : mass_ratio[i] * solid_volume;
-  }
+  double solid_volume_of(std::size_t i) const { return MassRatios{mass_ratio}[i] * solid_volume; }
 };
 
 /// Particles of a bulk density each. \param density kg/m^3, above 0; \param mass of a particle, kg; \param

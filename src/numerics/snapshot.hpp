@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "numerics/mass_ratios.hpp"
 
 namespace talus {
 
@@ -52,12 +53,6 @@ struct SectorCopies {
   int count = 1;                ///< of the sectors that make up the whole, itself counted
   std::int64_t identities = 0;  ///< of particles in one copy: those of copy k are (identity + k identities) mod count
                                 ///< identities
-};
-
-/// Masses of particles over that of the finest; without such a column all are 1.
-struct MassRatios {
-  std::span<const double> of;
-  double operator[](std::size_t i) const { return of.empty() ? 1 : of[i]; }
 };
 
 /// The particles at one time. Valid as long as the state it was made from is unchanged. The column "position" is always

@@ -226,6 +226,8 @@ friction = 0.3
                       r"beads.toml:9: walls.stel: .*'steel'", r"--diameter: takes --shear-cell or --repose", r"--out my-grains.txt", "10 problems"):
             self.assertTrue(re.search(words, said), f"{words}\n{said}")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["beads.toml", "bin", "case.toml"])
+        (self.folder / "beads.toml").write_text('walls = 3\n[beads]\n', encoding="utf-8")
+        self.assertRegex(self.calibrate("--out", "my-grains.toml", status=2), r"beads.toml:1: walls: is of another type")
         self.assertIn("takes one of", self.calibrate("--repose", "30deg", "--out", "my-grains.toml", status=2))
 
 

@@ -41,8 +41,11 @@ def read_beads(path):
     _check_names(reader, beads, line)
     values = {name: _number(reader, beads, line, name, *ends) for name, ends in NUMBERS.items()}
     values |= {name: _quantity(reader, beads, line, name, *unit) for name, unit in QUANTITIES.items()}
-    walls = {}
-    for wall, table in reader.file.get("walls", {}).items():
+    walls, given = {}, reader.file.get("walls", {})
+    if not isinstance(given, dict):
+        reader.fault(0, "walls", "is of another type", allowed=f"tables [walls.{WALLS[0]}] with friction")
+        given = {}
+    for wall, table in given.items():
         at = reader.line_of(f"[walls.{wall}]") or reader.line_of("[walls]")
         if wall not in WALLS:
             reader.fault(at, f"walls.{wall}", "is no wall of a material", allowed=", ".join(WALLS), near=nearest(wall, WALLS))

@@ -6,6 +6,7 @@ from talus.ask import ask
 from talus.lab.reference import toml_text
 from talus.trouble import problem
 
+#: Of glass beads: dynamic less static friction, random loose packing over the critical one.
 FASTER, LOOSE = 0.256, 0.94
 SHEAR_PLANE = "shear plane"
 WALLS = ("steel", "acrylic", "glass", "concrete")

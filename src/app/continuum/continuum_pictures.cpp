@@ -177,7 +177,7 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
   const std::vector<double> speed = mean_speeds(before.view(), now.view());
   const auto positions = now.view().positions();
-  const double mean = hopper::mean_speed_above(setting.shape.outlet->height, positions, speed);
+  const double mean = hopper::mean_speed_above(setting.shape.outlet->height, now.view(), speed);
   if (!(mean > 0)) return false;
   const std::vector<std::size_t> seen = seen_particles(setting, now.view());
   const std::vector<Vector3> places = picked(positions, seen);

@@ -19,7 +19,7 @@ namespace {
 using hydrodynamics::Mobility;
 
 // Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the sums, bitwise.
-constexpr std::size_t most_tasks = 64;
+constexpr std::size_t task_limit = 64;
 constexpr std::size_t gather_block = 32 * padding;
 
 SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
@@ -56,7 +56,7 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
 }
 
 std::size_t PairSum::max_tasks(std::size_t spheres) {
-  return std::min(((spheres + task_rows - 1) / task_rows + 1) / 2, most_tasks);
+  return std::min(((spheres + task_rows - 1) / task_rows + 1) / 2, task_limit);
 }
 
 // Tasks of about the same number of pairs: the first rows have the most columns.

@@ -120,7 +120,7 @@ Continuum::Totals Continuum::find_totals() const {
     max_packing = std::max(max_packing, s.packing[i]);
     const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) |
                             (x.z < box.low.z) | (x.z > box.high.z);
-    if (is_outside) outside += s.mass_ratio.empty() ? 1 : static_cast<std::uint64_t>(s.mass_ratio[i]);
+    if (is_outside) outside += static_cast<std::uint64_t>(s.ratios()[i]);
   }
   Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};
   join(ranks_, votes, std::span(&momentum, 1));

@@ -20,6 +20,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::size_t min_merged = 4, max_merged = 12;
+constexpr int passes_after_split = 20, passes_at_start = 40;  // in which places are relaxed
 
 /// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
 constexpr std::array<std::array<double, 3>, 8> corners{
@@ -34,15 +35,24 @@ Frame frame_along(const Vector3& normal) {
   return {first, cross(normal, first), normal};
 }
 
+/// A wall of a vessel as a particle beside it meets it.
+struct Mirror {
+  Vector3 place, normal;  ///< of the wall, m; unit, towards the particle
+};
+
+/// The nearest one within a distance, m.
+std::optional<Mirror> mirror_near(const Surface& vessel, const Vector3& x, double within) {
+  if (vessel.is_empty()) return std::nullopt;
+  const auto foot = vessel.nearest(x, within);
+  if (!foot || !(foot->distance > 0)) return std::nullopt;
+  return Mirror{foot->place, (1 / foot->distance) * (x - foot->place)};
+}
+
 /// Along the nearest wall within a distance, m; else along the axes.
 Frame frame_at(const Boundary& boundary, const Vector3& x, double within) {
-  if (const Surface& vessel = boundary.vessel(); !vessel.is_empty())
-    if (const auto foot = vessel.nearest(x, within); foot && foot->distance > 0) {
-      const Vector3 from = x - foot->place;
-      return frame_along((1 / norm(from)) * from);
-    }
+  if (const auto wall = mirror_near(boundary.vessel(), x, within)) return frame_along(wall->normal);
   const Domain& domain = boundary.domain();
-  for (int wall = 6; wall < domain.wall_count(); ++wall)
+  for (int wall = wall_number(0); wall < domain.wall_count(); ++wall)
     if (domain.is_beside(wall, x) && std::abs(domain.above(wall, x)) < within) return frame_along(domain.normal(wall));
   return {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
 }
@@ -191,26 +201,12 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
   return true;
 }
 
-/// Who moves when places are relaxed.
-enum class Relaxed { between_levels, given };
-
-/// A wall as a particle beside it meets it.
-struct Mirror {
-  Vector3 place, normal;  ///< of the wall, m; unit, towards the particle
-};
-std::optional<Mirror> mirror_near(const Surface& vessel, const Vector3& x, double length) {
-  if (vessel.is_empty()) return std::nullopt;
-  const auto foot = vessel.nearest(x, sph::support * length);
-  if (!foot || !(foot->distance > 0)) return std::nullopt;
-  return Mirror{foot->place, (1 / foot->distance) * (x - foot->place)};
-}
-
 /// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
 /// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
 /// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
-/// moves. \param ratio sph.smoothing_ratio \param is_given who moves
-void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, const std::vector<char>& is_given,
-           State& s) {
+/// moves. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves; empty: those move that
+/// have neighbours of another level
+void relax(const Boundary& boundary, double ratio, int passes, const std::vector<char>& is_part, State& s) {
   constexpr double share = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
   constexpr double most = 0.2;                 // of h, that one may move
   ThreadTeam team(1);
@@ -234,10 +230,11 @@ void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, cons
     const auto differs = [&](std::uint32_t n) {
       return level_of(s.mass_ratio[source(n)]) != level_of(s.mass_ratio[i]);
     };
-    if (who == Relaxed::given ? is_given[i] != 0 : std::ranges::any_of(around.of(i), differs)) moving.push_back(i);
+    if (is_part.empty() ? std::ranges::any_of(around.of(i), differs) : is_part[i] != 0) moving.push_back(i);
   }
   std::vector<std::optional<Mirror>> walls;
-  for (const std::uint32_t i : moving) walls.push_back(mirror_near(boundary.vessel(), s.position[i], length[i]));
+  for (const std::uint32_t i : moving)
+    walls.push_back(mirror_near(boundary.vessel(), s.position[i], sph::support * length[i]));
   const std::vector<Vector3> begun = s.position;
   std::vector<Vector3> by(moving.size());
   for (int pass = 0; pass < passes; ++pass) {
@@ -279,7 +276,7 @@ void split_and_merge(const Levels& levels, const Boundary& boundary, const Param
   for (int level = 0; level < levels.count(); ++level) {
     const std::vector<char> is_part = split(levels, boundary, s);
     if (is_part.empty()) break;
-    relax(boundary, p.sph.smoothing_ratio, 20, Relaxed::given, is_part, s);
+    relax(boundary, p.sph.smoothing_ratio, passes_after_split, is_part, s);
   }
   merge(levels, boundary, s);
 }
@@ -290,7 +287,7 @@ void lay_levels(const Setup& setup, State& s) {
   for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
   }
   s.merged_energy = 0;
-  relax(*setup.boundary, setup.given.sph.smoothing_ratio, 40, Relaxed::between_levels, {}, s);
+  relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, s);
 }
 
 }  // namespace talus::continuum

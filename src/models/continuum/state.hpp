@@ -14,6 +14,7 @@
 #include "models/continuum/boundary/vessel_loads.hpp"
 #include "numerics/field.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "numerics/mass_ratios.hpp"
 #include "physics/granular/material_point.hpp"
 
 namespace talus::continuum {
@@ -99,7 +100,8 @@ struct State {
   Population population;
   AirAround air;
 
-  double mass_of(std::size_t i) const { return mass_ratio.empty() ? mass : mass_ratio[i] * mass; }
+  MassRatios ratios() const { return {mass_ratio}; }
+  double mass_of(std::size_t i) const { return ratios()[i] * mass; }  ///< kg
 
   // Phases.
   double gate_time = -1;   ///< when the gate opened, s; -1: it has not

@@ -156,7 +156,7 @@ void Step::half() const {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start.at(s.position[i]) + by_air(s, i));
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
-    w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i], s.mass_ratio.empty() ? 1 : s.mass_ratio[i]);
+    w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i], s.ratios()[i]);
   });
   prevent_approach(team, walls(), w.rates, s, dt, w.pairs, w.velocity);
   measure_strain_at(team, s, w, w.position);

@@ -87,7 +87,7 @@ struct SummedColumns {
   std::vector<double>& mass_ratio;
 
   ParticleView view() const {
-    return {position, velocity, density, smoothing_length, material, deformation_rate, mass_ratio};
+    return {position, velocity, density, smoothing_length, material, deformation_rate, {mass_ratio}};
   }
 };
 

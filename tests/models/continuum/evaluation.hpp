@@ -62,7 +62,7 @@ struct Evaluation {
   void evaluate(PairTerms terms = PairTerms::all) {
     std::vector<double> h;
     for (std::size_t i = 0; i < state.density.size(); ++i)
-      h.push_back(pairs.smoothing_length(state.density[i], state.mass_ratio.empty() ? 1 : state.mass_ratio[i]));
+      h.push_back(pairs.smoothing_length(state.density[i], state.ratios()[i]));
     pairs.find_neighbours(team, state.position, h);
     if (!state.deformation_rate[0].empty()) {
       sum(h, PairTerms::gradients);
@@ -73,7 +73,7 @@ struct Evaluation {
   }
   void sum(const std::vector<double>& h, PairTerms terms) {
     pairs(team,
-          {state.position, state.velocity, state.density, h, state.material, state.deformation_rate, state.mass_ratio},
+          {state.position, state.velocity, state.density, h, state.material, state.deformation_rate, state.ratios()},
           terms, rates);
   }
 

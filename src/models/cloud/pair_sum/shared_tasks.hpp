@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The tasks of a direct sum, dealt out among processes. What they have computed of a row goes to the process that adds
+/// The tasks of a direct sum, divided among processes. What they have computed of a row goes to the process that adds
 /// it up, in the order of the tasks as one process does, and the velocities of its rows go to all: bitwise identical.
 #pragma once
 
@@ -28,7 +28,7 @@ class SharedTasks {
   /// \param ranks more than one; outlive it
   SharedTasks(const Ranks& ranks, std::vector<std::size_t> begin, std::size_t padded, std::size_t dimensions);
 
-  /// Whether this process computes a task. They are dealt out like cards: each has long rows and short ones.
+  /// Whether this process computes a task. Processes take them in turn: each has long rows and short ones.
   bool has(std::size_t task) const { return rank_of(task) == ranks_.rank(); }
   /// Rows that this process adds up.
   std::size_t first_row() const { return first_row(ranks_.rank()); }

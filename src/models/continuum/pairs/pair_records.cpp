@@ -143,7 +143,7 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
     motion_[i] = {{x.x, x.y, x.z},
                   0.5 * particles.smoothing_length[i],
                   {u.x, u.y, u.z},
-                  particles.mass_ratio_of(i) * options_.mass / density};
+                  particles.mass_ratio[i] * options_.mass / density};
     if (!stresses) return;
     const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
     stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, options_.tension ? tension_of(s) : 0};
@@ -186,7 +186,7 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
     const double density = particles.density[i];
     single_motion_[i] =
         single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),
-               static_cast<float>(particles.mass_ratio_of(i) * options_.mass / density), per_quantum);
+               static_cast<float>(particles.mass_ratio[i] * options_.mass / density), per_quantum);
     if (!stresses) return;
     const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
     single_stress_[i] =

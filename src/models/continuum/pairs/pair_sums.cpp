@@ -194,8 +194,8 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
       const std::size_t i = first + n;
       rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
       if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
-      rates.kernel_density[i] = sums[n].kernel_density + particles.mass_ratio_of(i) * mass_ *
-                                                             sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      rates.kernel_density[i] = sums[n].kernel_density +
+                                particles.mass_ratio[i] * mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
       std::copy_n(sums[n].wall_acceleration, lists_.first_wall()[i + 1] - lists_.first_wall()[i],
                   rates.by_walls.value.data() + lists_.first_wall()[i]);
     }

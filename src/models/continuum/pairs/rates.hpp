@@ -70,9 +70,7 @@ struct ParticleView {
   std::span<const double> smoothing_length;  ///< of these densities (PairSums::smoothing_length)
   const MaterialColumns& material;
   const std::array<std::vector<double>, 6>& deformation_rate;  ///< State::deformation_rate
-  std::span<const double> mass_ratio = {};                     ///< State::mass_ratio
-
-  double mass_ratio_of(std::size_t i) const { return mass_ratio.empty() ? 1 : mass_ratio[i]; }
+  MassRatios mass_ratio = {};                                  ///< State::ratios
 };
 
 }  // namespace talus::continuum

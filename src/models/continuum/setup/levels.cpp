@@ -81,7 +81,7 @@ std::array<std::int64_t, 3> Levels::cell_of(const Vector3& x, int level) const {
 double share_of_particles(const Layout& layout) {
   const Levels levels(layout);
   if (levels.count() == 0 || layout.has_no_bed()) return 1;
-  constexpr double max_tried = 1e6;
+  constexpr double max_tried = 1e5;
   if (const double count = bed_count(layout); count > max_tried) {
     Parameters coarser = layout.given;
     if (!coarser.levels.distance) coarser.levels.distance = layout.outlet_width;
@@ -94,26 +94,31 @@ double share_of_particles(const Layout& layout) {
   return positions.empty() ? 1 : sum / static_cast<double>(positions.size());
 }
 
-std::vector<Problem> check_levels(const Layout& layout) {
-  const Parameters& p = layout.given;
-  std::vector<Problem> problems;
-  if (p.levels.count == 0) return problems;
-  const auto refuse = [&](bool given, const char* key, std::string what, std::string allowed) {
-    if (given) problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
-  };
+namespace {
+
+/// Adds a problem where something is so.
+class Refusals {
+ public:
+  void operator()(bool so, const char* key, std::string what, std::string allowed) {
+    if (so) problems_.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
+  }
+  std::vector<Problem> take() { return std::move(problems_); }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> check_levels(const Parameters& p) {
+  if (p.levels.count == 0) return {};
+  Refusals refuse;
   refuse(p.levels.low.has_value() != p.levels.high.has_value(), p.levels.low ? "levels.high" : "levels.low",
          "one corner of the box without the other", "both corners, or none");
   if (p.levels.low && p.levels.high)
     for (std::size_t axis = 0; axis < 3; ++axis)
       refuse(!((*p.levels.low)[axis] <= (*p.levels.high)[axis]), "levels.high", "is below levels.low along an axis",
              "at least levels.low along each axis");
-  const bool has_box = p.levels.low && p.levels.high;
-  refuse(!layout.outlet && !has_box, "levels.count", "there is no outlet near which particles could be fine",
-         "0, or a box of levels.low and levels.high");
-  refuse(layout.outlet && !layout.outlet_width && !p.levels.distance, "levels.distance",
-         "left out, and the outlet has no width", "a distance");
-  refuse(!layout.outlet && has_box && !p.levels.distance, "levels.distance", "left out, and there is no outlet",
-         "a distance from the box");
   refuse(p.air.enabled, "levels.count", "the air takes up particles of one size only", "0 with air");
   refuse(p.sph.smoothing == Smoothing::fixed, "sph.smoothing", "fixed, and particles have several sizes",
          "local with levels");
@@ -122,13 +127,25 @@ std::vector<Problem> check_levels(const Layout& layout) {
   refuse(!p.law.is<granular::CriticalState>(), "law.name",
          "particles that split and merge have no place from which strain could be measured",
          "critical-state with levels");
+  return refuse.take();
+}
+
+std::vector<Problem> check_levels(const Layout& layout) {
+  const Parameters& p = layout.given;
+  if (p.levels.count == 0) return {};
+  Refusals refuse;
+  const bool has_box = p.levels.low && p.levels.high, is_near_outlet = layout.outlet_width || p.levels.distance;
+  refuse(!layout.outlet && !has_box, "levels.count", "there is no outlet near which particles could be fine",
+         "0, or a box of levels.low and levels.high");
+  refuse((layout.outlet || has_box) && !is_near_outlet, "levels.distance", "left out, and no outlet has a width",
+         "a distance");
   const double coarsest = std::exp2(p.levels.count) * p.bed.spacing, reach = 2.2 * sph::support * coarsest,
                room = layout.boundary->domain().max_reach();
   refuse(!(reach < room), "levels.count",
          fmt::format("particles of {:.3g} mm reach {:.3g} mm, walls are {:.3g} mm apart", 1e3 * coarsest, 1e3 * reach,
                      1e3 * room),
          "fewer levels, or walls farther apart");
-  return problems;
+  return refuse.take();
 }
 
 }  // namespace talus::continuum

@@ -88,7 +88,8 @@ class Levels {
 /// over the mass ratio that is wanted.
 double share_of_particles(const Layout& layout);
 
-/// What levels of a case cannot be. \param layout of a sound case
+/// What levels of a case cannot be, by its keys alone, and in its layout if that is sound.
+std::vector<Problem> check_levels(const Parameters& parameters);
 std::vector<Problem> check_levels(const Layout& layout);
 
 }  // namespace talus::continuum

@@ -367,8 +367,8 @@ std::vector<Problem> check(const Parameters& given) {
     problems.push_back({.key = "settle.loading_time",
                         .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
                         .allowed = fmt::format("less than settle.max_time, {:g} s", limit)});
-  for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
-  for (const Problem& problem : check_air(p)) problems.push_back(problem);
+  for (const auto& found : {granular::check(p.law), check_air(p), check_levels(p)})
+    problems.insert(problems.end(), found.begin(), found.end());
   if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))
     problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",

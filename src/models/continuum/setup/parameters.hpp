@@ -116,8 +116,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   {},
                   "sets keys that the case leaves out: 8, 12 or 20 particles across the outlet, the moduli of the law "
-                  "critical-state and, but for a reference, single precision and a sector of an axisymmetric vessel "
-                  "(talus check lists them); left out: none"},
+                  "critical-state and, but for a reference, single precision, a sector of an axisymmetric vessel and "
+                  "coarser particles away from the outlet (talus check lists them); left out: none"},
         p.accuracy);
   visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right face",
                   true},

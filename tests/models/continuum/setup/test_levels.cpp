@@ -68,10 +68,13 @@ TEST(Levels, WhatCannotBeIsNamed) {
   EXPECT_TRUE(keys(bed_of_levels(1)).empty());
   Parameters p = bed_of_levels(1);
   p.levels.high = std::nullopt;
-  EXPECT_EQ(keys(p), (std::vector<std::string>{
-                         "levels.high",
-                         "levels.count",
-                     }));
+  EXPECT_EQ(keys(p), (std::vector<std::string>{"levels.high"}));
+  p.plate = {.height = -1.0, .slit_left = {}, .slit_right = {}};
+  EXPECT_EQ(keys(p).back(), "levels.high") << "with what else is wrong";
+  EXPECT_GT(keys(p).size(), 1u);
+  p = bed_of_levels(1);
+  p.levels.low = p.levels.high = std::nullopt;
+  EXPECT_EQ(keys(p), (std::vector<std::string>{"levels.count"}));
   p = bed_of_levels(1);
   (*p.levels.high)[1] = -1;
   EXPECT_EQ(keys(p), (std::vector<std::string>{"levels.high"}));
