@@ -37,9 +37,9 @@ Particles particles_of_density(std::span<const Vector3> position, std::span<cons
                                const MassRatios& mass_ratio) {
   Particles particles{.position = position, .smoothing_length = {}, .volume = {}, .solid_volume = mass / grain_density};
   for (std::size_t i = 0; i < density.size(); ++i) {
-    const double own = mass_ratio[i] * mass;
-    particles.volume.push_back(own / density[i]);
-    particles.smoothing_length.push_back(smoothing_length.value_or(sph::smoothing_length(own, density[i])));
+    particles.volume.push_back(mass_ratio[i] * mass / density[i]);
+    particles.smoothing_length.push_back(
+        smoothing_length.value_or(sph::smoothing_length(size_ratio(mass_ratio[i]) * mass, density[i])));
   }
   particles.mass_ratio.assign(mass_ratio.of.begin(), mass_ratio.of.end());
   return particles;

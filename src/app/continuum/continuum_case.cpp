@@ -366,7 +366,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
   prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
-  if (setup->given.levels.count > 0)
+  if (continuum::has_several_masses(setup->given))
     prepared.one_process = Problem{.key = "levels.count",
                                    .what = "particles of several sizes are computed by one process only",
                                    .allowed = "0, or one process: talus run without mpirun or srun"};

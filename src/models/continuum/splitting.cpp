@@ -103,23 +103,46 @@ void add_parts(const Boundary& boundary, const State& s, std::size_t i, Copies& 
   }
 }
 
+/// A particle about the axis of a sector in two, one above the other, or one farther out than the other.
+void add_halves(const Levels& levels, const Boundary& boundary, const State& s, std::size_t i, bool along_radius,
+                Copies& copies) {
+  const double ratio = s.mass_ratio[i], upper = std::floor(4 * ratio) / 8, lower = ratio - upper;
+  Vector3 up = {0, 0, 0.35 * cube_root(s.mass / s.density[i])}, down = {0, 0, -up.z};
+  if (along_radius) {
+    const Sector& sector = *boundary.domain().sector();
+    const Vector3 out = s.position[i] - sector.axis();
+    const Vector3 across{out.x, out.y, 0};
+    up = (std::sqrt(1.5) - 1) * across, down = (std::sqrt(0.5) - 1) * across;
+  }
+  const auto held = [&](Vector3 by) {
+    for (int halved = 0; halved < 6 && leaves(boundary, s.position[i], s.position[i] + by); ++halved) by = 0.5 * by;
+    return by;
+  };
+  (void)levels;
+  copies.add_part(i, lower, held(down), false);
+  copies.add_part(i, upper, held(up), true);
+}
+
 void apply(const Copies& copies, State& s) {
   select(s, copies.source);
   for (std::size_t n = 0; n < copies.source.size(); ++n) {
     s.mass_ratio[n] = copies.mass_ratio[n];
     s.position[n] += copies.moved[n];
-    if (copies.is_new[n]) s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
+    if (copies.is_new[n] && !s.identity.empty()) s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
   }
 }
 
 /// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
 /// split; nothing if none has
-std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s) {
+std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s, bool along_radius = false) {
   Copies copies;
   bool any = false;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    if (level_of(s.mass_ratio[i]) > levels.wanted(s.position[i])) {
-      add_parts(boundary, s, i, copies);
+    if (const int level = level_of(s.mass_ratio[i]); level > levels.wanted(s.position[i])) {
+      if (level > 0)
+        add_parts(boundary, s, i, copies);
+      else
+        add_halves(levels, boundary, s, i, along_radius, copies);
       any = true;
     } else {
       copies.keep(i, s.mass_ratio[i]);
@@ -184,7 +207,7 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
   std::vector<char> gone(s.position.size(), 0);
   bool any = false;
   for (const auto& [cell, all] : cells) {
-    if (all.size() < min_merged || all.size() > max_merged) continue;
+    if (cell.level < 0 ? all.size() < 2 || all.size() > 3 : all.size() < min_merged || all.size() > max_merged) continue;
     const auto hidden = [&, first = s.position[all.front()]](std::uint32_t i) {
       return is_between(boundary, first, s.position[i]);
     };
@@ -214,7 +237,7 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
   std::vector<double> length, volume, margin;
   for (std::size_t i = 0; i < count; ++i) {
     volume.push_back(s.mass_of(i) / s.density[i]);
-    length.push_back(ratio * cube_root(volume.back()));
+    length.push_back(ratio * cube_root(size_ratio(s.mass_ratio[i]) * s.mass / s.density[i]));
     margin.push_back(most * length.back());
   }
   Neighbourhood around(boundary.domain());
@@ -273,7 +296,7 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
 }  // namespace
 
 void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
-  for (int level = 0; level < levels.count(); ++level) {
+  for (int level = lightest_level; level < levels.count(); ++level) {
     const std::vector<char> is_part = split(levels, boundary, s);
     if (is_part.empty()) break;
     relax(boundary, p.sph.smoothing_ratio, passes_after_split, is_part, s);
@@ -287,6 +310,7 @@ void lay_levels(const Setup& setup, State& s) {
   for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
   }
   s.merged_energy = 0;
+  for (int level = lightest_level; level < levels.count(); ++level) split(levels, *setup.boundary, s, true);
   relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, s);
 }
 

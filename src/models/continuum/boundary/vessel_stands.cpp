@@ -164,7 +164,7 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
   std::array<PointsAround, max_sets_of_points>& around = of_thread;  // its address is looked up once
   const auto reach = [&](std::size_t i) { return 2 * (smoothing_length[i] + margin[i]); };
   const auto set_of = [&](std::size_t i) {
-    const int level = mass_ratio.empty() ? 0 : std::min(level_of(mass_ratio[i]), static_cast<int>(sets_ - 3) / 2);
+    const int level = mass_ratio.empty() ? 0 : std::clamp(level_of(mass_ratio[i]), 0, static_cast<int>(sets_ - 3) / 2);
     const double spacing = spacing_ * (1 << level);
     return 2 * static_cast<std::size_t>(level) +
            set_for(neighbourhood.distance_from_vessel(i) / spacing, margin[i] / spacing);

@@ -22,7 +22,7 @@ void Rates::resize(std::size_t count) {
 
 PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vessel, const SurfaceFields* fields)
     : mass_(setup.lattice.mass),
-      masses_(setup.given.levels.count > 0 ? Masses::unequal : Masses::equal),
+      masses_(has_several_masses(setup.given) ? Masses::unequal : Masses::equal),
       smoothing_ratio_(setup.given.sph.smoothing_ratio),
       fixed_smoothing_length_(setup.given.sph.smoothing == Smoothing::fixed ? setup.smoothing_length : 0.0),
       grain_density_(setup.given.grains.density),
@@ -72,7 +72,7 @@ bool PairSums::are_stabilised(PairTerms terms) const {
 
 double PairSums::smoothing_length(double density, double mass_ratio) const {
   return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
-                                     : smoothing_ratio_ * sph::smoothing_length(mass_ratio * mass_, density);
+                                     : smoothing_ratio_ * sph::smoothing_length(size_ratio(mass_ratio) * mass_, density);
 }
 
 void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> density,

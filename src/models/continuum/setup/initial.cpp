@@ -57,7 +57,7 @@ State initial_state(const Setup& setup, int part, int parts) {
   // A merged particle may have half as much again as its level.
   state.impulse_unit =
       state.mass * setup.sound_speed * (parameters.levels.count > 0 ? std::exp2(3 * parameters.levels.count + 1) : 1);
-  state.has = {.mass_ratio = parameters.levels.count > 0,
+  state.has = {.mass_ratio = has_several_masses(parameters),
                .tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,
                .reset_position = material.by_displacements(),

@@ -39,7 +39,7 @@ std::vector<std::array<Vector3, 2>> fine_boxes(const Layout& layout) {
 }  // namespace
 
 Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.levels.count)) {
-  if (count_ == 0) return;
+  if (!has_several_masses(layout.given)) return;
   distance_ = layout.given.levels.distance.value_or(layout.outlet_width.value_or(0));
   for (const auto& [low, high] : fine_boxes(layout)) regions_.push_back({low, high});
   const Lattice& lattice = layout.lattice;
@@ -62,12 +62,18 @@ int Levels::wanted(const Vector3& x, double slack) const {
   }
   int level = 0;
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
+  if (!sector_) return level;
+  const double apart = sector_->radius(x) * 2 * std::numbers::pi / (slack * sector_->copies() * spacing_.x),
+               bound = std::sqrt(0.5);
+  while (level > 0 && apart < bound * (1 << level)) --level;
+  if (level > 0) return level;
+  for (double below = bound; level > lightest_level && apart < below; below *= 0.5) --level;
   return level;
 }
 
 std::array<std::int64_t, 3> Levels::cell_of(const Vector3& x, int level) const {
   const auto whole = [](double value) { return static_cast<std::int64_t>(std::floor(value)); };
-  const double size = 2.0 * (1 << level);  // in spacings
+  const double size = level < 0 ? 1 : 2.0 * (1 << level);  // in spacings
   const Vector3 from = x - corner_;
   const std::int64_t up = whole(from.z / (size * spacing_.z));
   if (!sector_) return {whole(from.x / (size * spacing_.x)), whole(from.y / (size * spacing_.y)), up};

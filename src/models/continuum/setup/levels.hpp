@@ -51,11 +51,15 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
 }
 
+/// Halves, quarters and eighths of a particle of bed.spacing about the axis of a sector, levels -1 to -3.
+constexpr int lightest_level = -3;
+
 /// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at
-/// least 1
+/// least an eighth
 inline int level_of(double mass_ratio) {
   int level = 0;
   for (double bound = std::sqrt(8.0); mass_ratio > bound; bound *= 8) ++level;
+  for (double bound = std::sqrt(0.5); level > lightest_level && mass_ratio < bound; bound *= 0.5) --level;
   return level;
 }
 
