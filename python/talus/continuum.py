@@ -136,12 +136,11 @@ class ContinuumSnapshot:
 
     def grains(self, frame):
         of, sph = self.of, self.of.run.case["sph"]
-        if "mass_ratio" in frame:
-            raise NotEvaluated("its particles have several sizes")
         length = None
         if sph["smoothing"] == "fixed":
             length = np.cbrt(of.particle_mass / (float(of.run.case["bed"]["packing"]) * of.grain_density))
-        return Grains.of_density(frame.positions, frame["density"], of.particle_mass, of.grain_density, length)
+        return Grains.of_density(frame.positions, frame["density"], of.particle_mass, of.grain_density, length,
+                                 frame["mass_ratio"] if "mass_ratio" in frame else 1.0)
 
     def field(self, frame):
         """The Field of its particles."""

@@ -51,19 +51,22 @@ def cubic_spline_line(distance, h):
 
 @dataclass(frozen=True)
 class Grains:
-    """Particles of equal mass. SI."""
+    """Particles. SI."""
 
     position: np.ndarray          #: (n, 3)
     smoothing_length: np.ndarray  #: h
     volume: np.ndarray            #: with the voids
-    solid_volume: float           #: of the grains of one particle
+    solid_volume: np.ndarray      #: of the grains of each
 
     @classmethod
-    def of_density(cls, position, density, mass, grain_density, smoothing_length=None):
-        """Particles of a bulk density each. \\param smoothing_length of all; None: of each (m/rho)^(1/3)"""
-        volume = mass / np.asarray(density, dtype=float)
-        h = np.cbrt(volume) if smoothing_length is None else np.full(len(volume), float(smoothing_length))
-        return cls(np.asarray(position, dtype=float), h, volume, mass / grain_density)
+    def of_density(cls, position, density, mass, grain_density, smoothing_length=None, mass_ratio=1.0):
+        """Particles of a bulk density each. \\param mass_ratio of their masses to `mass` \\param smoothing_length of all;
+        None: of each (m/rho)^(1/3), of one lighter than `mass` that of `mass`"""
+        density = np.asarray(density, dtype=float)
+        ratio = np.broadcast_to(mass_ratio, density.shape)
+        h = (np.cbrt(mass * np.maximum(1, ratio) / density) if smoothing_length is None
+             else np.full(len(density), float(smoothing_length)))
+        return cls(np.asarray(position, dtype=float), h, mass * ratio / density, mass * ratio / grain_density)
 
 
 class Plate(NamedTuple):
@@ -203,9 +206,9 @@ def packing_section(grains, box, width, height):
             if box.plate is not None:
                 seen = box.visible((section.x[column], section.z[row]), (place[n, 0], place[n, 2]), image.in_plate)
                 n, row, column, distance = n[seen], row[seen], column[seen], distance[seen]
-            section.value += np.bincount(row * columns + column, cubic_spline_line(distance, h[n]),
+            section.value += np.bincount(row * columns + column, grains.solid_volume[n] * cubic_spline_line(distance, h[n]),
                                          rows * columns).reshape(rows, columns)
-    section.value *= grains.solid_volume / box.extent[1]
+    section.value /= box.extent[1]
     return section
 
 
@@ -269,8 +272,8 @@ class Field:
         """At places (n, 3): the sum of solid volume times kernel."""
         total = np.zeros(len(points))
         for n, k, _, distance in self._pairs(points):
-            total += np.bincount(n, cubic_spline(distance, self._h[k]), len(points))
-        return self.grains.solid_volume * total
+            total += np.bincount(n, self.grains.solid_volume[self._source[k]] * cubic_spline(distance, self._h[k]), len(points))
+        return total
 
     def packing_and_mean(self, points, column):
         """At places (n, 3): the packing, and the mean of a column of vectors weighted by volume times kernel; nan where
@@ -281,12 +284,12 @@ class Field:
             kernel = cubic_spline(distance, self._h[k])
             weight = self.grains.volume[self._source[k]] * kernel
             vectors = weight * self._vectors(column, k)
-            kernels += np.bincount(n, kernel, len(points))
+            kernels += np.bincount(n, self.grains.solid_volume[self._source[k]] * kernel, len(points))
             weights += np.bincount(n, weight, len(points))
             for axis in range(3):
                 sums[:, axis] += np.bincount(n, vectors[axis], len(points))
         with np.errstate(invalid="ignore", divide="ignore"):
-            return self.grains.solid_volume * kernels, np.where(weights > 0, 1 / weights, np.nan)[:, None] * sums
+            return kernels, np.where(weights > 0, 1 / weights, np.nan)[:, None] * sums
 
     def velocity_gradients(self, velocity):
         """du_i/dx_j at every particle, (n, 3, 3), 1/s: corrected so that it is exact for linear fields (Randles & Libersky

@@ -22,7 +22,7 @@ OPEN = ("open",) * 6
 
 def grains(points, h, packing=0.6):
     count = len(points)
-    return Grains(points, np.full(count, h), np.full(count, h**3), packing * h**3)
+    return Grains(points, np.full(count, h), np.full(count, h**3), np.full(count, packing * h**3))
 
 
 def sampled(start, end, step, function):

@@ -179,7 +179,7 @@ class _Heap:
         low, high = points.position.min(axis=0) - a, points.position.max(axis=0) + [a, a, a + ROOM * a]
         box = Box(high - low, ("wall", "wall", "symmetry", "symmetry", "wall", "open"))
         count, place = len(points.position), points.position - low
-        spheres = Grains(place, np.full(count, 2 * a), np.full(count, 8 * a**3), math.pi / 6 * 8 * a**3)
+        spheres = Grains(place, np.full(count, 2 * a), np.full(count, 8 * a**3), np.full(count, math.pi / 6 * 8 * a**3))
         self.at_points = Field(spheres, box).packing(place)
         self.packing = packing_section(spheres, box, 2 * a, a)
         self.packing.x, self.packing.z = self.packing.x + low[0], self.packing.z + low[2]

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -64,7 +65,7 @@ int Levels::wanted(const Vector3& x, double slack) const {
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
   if (!sector_) return level;
   const double apart = sector_->radius(x) * 2 * std::numbers::pi / (slack * sector_->copies() * spacing_.x),
-               bound = std::sqrt(0.5);
+               bound = std::getenv("AXB") ? std::atof(std::getenv("AXB")) : 1.0;
   while (level > 0 && apart < bound * (1 << level)) --level;
   if (level > 0) return level;
   for (double below = bound; level > lightest_level && apart < below; below *= 0.5) --level;
