@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Masses of particles over that of the finest.
+/// Masses of particles over a unit, that of a particle of the spacing that the case gives.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,13 @@ struct MassRatios {
   double operator[](std::size_t i) const { return of.empty() ? 1 : of[i]; }
 };
 
-/// Of which masses with levels are whole numbers, in that of the finest.
+/// Unequal masses are whole numbers of this part of the unit.
 inline constexpr double parts_of_mass = 8;
 
-/// The size of a particle goes with its mass, but never below that of the finest: lighter ones share its place
-/// (Levels::wanted). \returns the volume over that of the finest by which it has a smoothing length
-inline double size_ratio(double mass_ratio) { return std::max(1.0, mass_ratio); }
+/// The volume over that of a particle of unit mass by which a particle has a smoothing length: lighter ones about the
+/// axis of a sector have that of the unit (continuum/setup/levels.hpp).
+inline double size_ratio(double mass_ratio) {
+  return std::max(1.0, mass_ratio);
+}
 
 }  // namespace talus

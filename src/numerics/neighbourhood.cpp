@@ -103,9 +103,20 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
   distance_.clear();
   if (vessel_.is_empty()) return;
   distance_.assign(points.size(), infinity);
+  const std::size_t count = points.size() - ghosts_.size();
+  // A vessel with a sector turns into itself, but for what its corners may be off (check_symmetry of the model).
+  constexpr double off = 4e-6;
+  const double slack = off * norm(vessel_.high() - vessel_.low());
+  const auto is_turned = [&](std::size_t n) {
+    const Image& image = images_[ghosts_[n - count].image];
+    return image.turns != 0 && image.copy[2] == 0;
+  };
   slabs_.resize((points.size() + together - 1) / together);
   team.run(slabs_.size(), [&](std::size_t group) {
     const std::size_t begin = together * group, end = std::min(points.size(), begin + together);
+    std::size_t first = begin;
+    while (first < end && first >= count && is_turned(first)) ++first;
+    if (first == end) return;
     const auto [low, high] = box_around(points.subspan(begin, end - begin));
     const double reach = (1 + 1e-9) * reach_;
     const Vector3 around{reach, reach, reach};
@@ -116,7 +127,7 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     slabs.all = find(low, high, slabs.of);
     std::size_t last = Surface::no_triangle;
     std::vector<Slab> own;
-    for (std::size_t n = begin; n < end; ++n) {
+    for (std::size_t n = first; n < end; ++n) {
       double least = infinity;
       if (slabs.all || find(points[n], points[n], own)) {
         for (const Slab& slab : slabs.all ? slabs.of : own) least = std::min(least, slab.distance(points[n]));
@@ -125,6 +136,9 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
       }
       if (least <= reach_) distance_[n] = least;
     }
+  });
+  for_each(team, ghosts_.size(), [&](std::size_t g) {
+    if (is_turned(count + g)) distance_[count + g] = std::max(0.0, distance_[ghosts_[g].source] - slack);
   });
 }
 

@@ -92,7 +92,8 @@ void write_residence(const std::filesystem::path& path, const HopperRun& run,
   for (std::size_t n = 0; n < time.size(); ++n) {
     if (n + 1 < time.size() && time[n + 1] <= 0) continue;
     const PointSet points = read_points(snapshots[n]);
-    if (points.view().has("mass_ratio")) return;  // particles that split and merge do not stay who they are
+    const auto is_coarse = [](double mass_ratio) { return continuum::level_of(mass_ratio) > 0; };
+    if (std::ranges::any_of(points.view().mass_ratios().of, is_coarse)) return;  // which become others
     if (residence)
       residence->take(points.view(), time[n]);
     else

@@ -211,7 +211,9 @@ std::vector<NamedValue> Continuum::totals() const {
   if (s.has.mass_ratio) values.push_back({"merged_energy", "J", copies * s.merged_energy});
   if (s.population.is_active) {
     values.push_back({"fed_mass", "kg", copies * s.mass * static_cast<double>(s.population.fed)});
-    values.push_back({"removed_mass", "kg", copies * s.mass / (s.has.mass_ratio ? parts_of_mass : 1) * static_cast<double>(s.population.removed)});
+    values.push_back(
+        {"removed_mass", "kg",
+         copies * s.mass / (s.has.mass_ratio ? parts_of_mass : 1) * static_cast<double>(s.population.removed)});
     add("fed_momentum", s.population.fed_momentum);
     add("removed_momentum", s.population.removed_momentum);
   }

@@ -85,11 +85,12 @@ void add_sector(const Setup& setup, std::vector<RegimeLine>& lines) {
   const auto& outlet = setup.outlet;
   const double width = outlet ? outlet->across : 0;
   if (!(width > 0)) return;
-  const double ring = std::sqrt(copies / std::numbers::pi) * p.bed.spacing, ratio = 0.5 * width / ring;
+  const double lightest = splits_at_axis(p) ? 1 / parts_of_mass : 1;
+  const double ring = std::sqrt(lightest * copies / std::numbers::pi) * p.bed.spacing, ratio = 0.5 * width / ring;
   lines.push_back(
       {"outlet over the sector's axis", fmt::format("{:.3g}", ratio),
-       fmt::format("radius of the outlet over that of the ring in which a particle and its copies stand about "
-                   "the axis, {:.3g} mm; the outlet discharges 6 % less at 2.3, 16 % at 1.9, 33 % at 1.6 "
+       fmt::format("radius of the outlet over that of the ring in which the lightest particle and its copies "
+                   "stand about the axis, {:.3g} mm; the outlet discharges 6 % less at 2.3, 16 % at 1.9, 33 % at 1.6 "
                    "(validation/sector): below {:g} take a larger sector or a smaller bed.spacing",
                    ring / millimetre, min_outlet_over_axis),
        ratio < min_outlet_over_axis});

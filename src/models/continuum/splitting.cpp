@@ -19,7 +19,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr std::size_t min_merged = 4, max_merged = 12;
+constexpr std::size_t min_merged = 4, max_merged = 12, min_halves = 2, max_halves = 3;
 constexpr int passes_after_split = 20, passes_at_start = 40;  // in which places are relaxed
 
 /// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
@@ -66,6 +66,12 @@ bool leaves(const Boundary& boundary, const Vector3& a, const Vector3& b) {
   return is_between(boundary, a, b) || boundary.domain().bounce(a, b);
 }
 
+/// A displacement from x, halved until it ends before the wall.
+Vector3 within(const Boundary& boundary, const Vector3& x, Vector3 by) {
+  for (int halved = 0; halved < 6 && leaves(boundary, x, x + by); ++halved) by = 0.5 * by;
+  return by;
+}
+
 /// How the columns come from those before: each particle a copy of one, with a mass and a place of its own.
 struct Copies {
   std::vector<std::uint32_t> source;
@@ -97,30 +103,29 @@ void add_parts(const Boundary& boundary, const State& s, std::size_t i, Copies& 
     middle += (mass[n] / ratio) * place[n];
   }
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
-    Vector3 by = place[n] - middle;
-    for (int halved = 0; halved < 6 && leaves(boundary, s.position[i], s.position[i] + by); ++halved) by = 0.5 * by;
-    copies.add_part(i, mass[n], by, n > 0);
+    copies.add_part(i, mass[n], within(boundary, s.position[i], place[n] - middle), n > 0);
   }
 }
 
-/// A particle about the axis of a sector in two, one above the other, or one farther out than the other.
-void add_halves(const Levels& levels, const Boundary& boundary, const State& s, std::size_t i, bool along_radius,
-                Copies& copies) {
-  const double ratio = s.mass_ratio[i], upper = std::floor(4 * ratio) / 8, lower = ratio - upper;
-  Vector3 up = {0, 0, 0.35 * cube_root(s.mass / s.density[i])}, down = {0, 0, -up.z};
-  if (along_radius) {
-    const Sector& sector = *boundary.domain().sector();
-    const Vector3 out = s.position[i] - sector.axis();
-    const Vector3 across{out.x, out.y, 0};
-    up = (std::sqrt(1.5) - 1) * across, down = (std::sqrt(0.5) - 1) * across;
+/// How halves of a particle about the axis of a sector lie: a flow towards an outlet has drawn it out along the axis;
+/// in a bed that is laid it takes up a disc.
+enum class Halves { along_axis, across_axis };
+
+/// A particle about the axis of a sector in two.
+void add_halves(const Boundary& boundary, const State& s, std::size_t i, Halves halves, Copies& copies) {
+  constexpr double apart = 0.7;  // in spacings
+  const double ratio = s.mass_ratio[i];
+  const std::array mass{ratio - std::floor(0.5 * parts_of_mass * ratio) / parts_of_mass,
+                        std::floor(0.5 * parts_of_mass * ratio) / parts_of_mass};
+  std::array<Vector3, 2> by;
+  if (halves == Halves::along_axis) {
+    const double size = cube_root(s.mass / s.density[i]);
+    by = {Vector3{0, 0, -apart * size * mass[1] / ratio}, Vector3{0, 0, apart * size * mass[0] / ratio}};
+  } else {  // the disc and the ring around it, of equal areas
+    const Vector3 about = s.position[i] - boundary.domain().sector()->axis(), outwards{about.x, about.y, 0};
+    by = {(std::sqrt(0.5) - 1) * outwards, (std::sqrt(1.5) - 1) * outwards};
   }
-  const auto held = [&](Vector3 by) {
-    for (int halved = 0; halved < 6 && leaves(boundary, s.position[i], s.position[i] + by); ++halved) by = 0.5 * by;
-    return by;
-  };
-  (void)levels;
-  copies.add_part(i, lower, held(down), false);
-  copies.add_part(i, upper, held(up), true);
+  for (std::size_t n = 0; n < 2; ++n) copies.add_part(i, mass[n], within(boundary, s.position[i], by[n]), n > 0);
 }
 
 void apply(const Copies& copies, State& s) {
@@ -128,13 +133,14 @@ void apply(const Copies& copies, State& s) {
   for (std::size_t n = 0; n < copies.source.size(); ++n) {
     s.mass_ratio[n] = copies.mass_ratio[n];
     s.position[n] += copies.moved[n];
-    if (copies.is_new[n] && !s.identity.empty()) s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
+    if (copies.is_new[n] && !s.identity.empty())
+      s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
   }
 }
 
 /// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
 /// split; nothing if none has
-std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s, bool along_radius = false) {
+std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s, Halves halves = Halves::along_axis) {
   Copies copies;
   bool any = false;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -142,7 +148,7 @@ std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s
       if (level > 0)
         add_parts(boundary, s, i, copies);
       else
-        add_halves(levels, boundary, s, i, along_radius, copies);
+        add_halves(boundary, s, i, halves, copies);
       any = true;
     } else {
       copies.keep(i, s.mass_ratio[i]);
@@ -207,7 +213,8 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
   std::vector<char> gone(s.position.size(), 0);
   bool any = false;
   for (const auto& [cell, all] : cells) {
-    if (cell.level < 0 ? all.size() < 2 || all.size() > 3 : all.size() < min_merged || all.size() > max_merged) continue;
+    const bool halves = cell.level < 0;
+    if (all.size() < (halves ? min_halves : min_merged) || all.size() > (halves ? max_halves : max_merged)) continue;
     const auto hidden = [&, first = s.position[all.front()]](std::uint32_t i) {
       return is_between(boundary, first, s.position[i]);
     };
@@ -296,7 +303,7 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
 }  // namespace
 
 void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
-  for (int level = lightest_level; level < levels.count(); ++level) {
+  for (int level = levels.lightest(); level < levels.count(); ++level) {
     const std::vector<char> is_part = split(levels, boundary, s);
     if (is_part.empty()) break;
     relax(boundary, p.sph.smoothing_ratio, passes_after_split, is_part, s);
@@ -310,7 +317,7 @@ void lay_levels(const Setup& setup, State& s) {
   for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
   }
   s.merged_energy = 0;
-  for (int level = lightest_level; level < levels.count(); ++level) split(levels, *setup.boundary, s, true);
+  for (int level = levels.lightest(); level < 0; ++level) split(levels, *setup.boundary, s, Halves::across_axis);
   relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, s);
 }
 

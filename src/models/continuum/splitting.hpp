@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Particles split where finer ones are wanted, and merge where coarser ones are (setup/levels.hpp).
 ///
-/// Split: into eight in the corners of a cube of half the particle's size, one face along the nearest wall; all keep
-/// velocity, density, stress and history: mass, momentum, energy and volume stay. Merge: those of a level in a cell of
-/// twice its spacing, 4 to 12 of them, about an axis of a sector in cells of rings; mass, momentum and volume stay,
-/// stress and history become their means by volume; kinetic energy falls by that of the motion about the common centre,
-/// which is summed. Both happen when neighbour lists are built.
-/// Source: Vacondio, Rogers, Stansby, Mignosa & Feldman, Comput. Methods Appl. Mech. Eng. 256, 132 (2013), on
-/// conservation; the patterns are of this model.
+/// Split: into eight in the corners of a cube of half the particle's size, one face along the nearest wall, about the
+/// axis of a sector into two, one above the other; all keep velocity, density, stress and history: mass, momentum,
+/// energy and volume stay. Merge: those of a level in a cell of twice its spacing, 4 to 12 of them, in a sector in
+/// cells of rings, two or three halves in a ring of bed.spacing; mass, momentum and volume stay, stress and history
+/// become their means by volume; kinetic energy falls by that of the motion about the common centre, which is summed.
+/// Both happen when neighbour lists are built. Source: Vacondio, Rogers, Stansby, Mignosa & Feldman, Comput. Methods
+/// Appl. Mech. Eng. 256, 132 (2013), on conservation; the patterns are of this model.
 #pragma once
 
 #include "models/continuum/boundary/boundary.hpp"

@@ -49,7 +49,7 @@ struct Population {
   bool is_active = false;           ///< from the case, not a field: whether any can
   std::uint64_t next_identity = 0;  ///< of a particle to come
   std::uint64_t fed = 0;            ///< particles that came in
-  std::uint64_t removed = 0;        ///< that were taken away, with levels in those of the finest
+  std::uint64_t removed = 0;        ///< that were taken away; where masses differ, eighths of one of bed.spacing
   Vector3 fed_momentum;             ///< what they brought, N s
   Vector3 removed_momentum;         ///< what they took along, N s
   std::vector<double> next_layer;   ///< of each inlet: when it is due, by its clock, s
@@ -63,7 +63,7 @@ struct State {
   std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
   std::vector<double> density;         ///< bulk density, kg/m^3
   std::vector<std::int64_t> identity;  ///< number of the particle at the start: columns are re-sorted now and then
-  std::vector<double> mass_ratio;      ///< to `mass`, a whole number; only with levels
+  std::vector<double> mass_ratio;      ///< to `mass`, whole eighths; with levels, in a sector
   std::vector<std::int64_t> tag;       ///< of the bed that it belongs to, -1 of an inlet's; only with several beds
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
@@ -72,7 +72,7 @@ struct State {
     bool mass_ratio = false, tag = false, collisional = false, reset_position = false, sector_turns = false,
          lasting_rate = false, deformation_rate = false;
   } has;
-  double mass = 0;           ///< of a particle, with levels of the finest, kg
+  double mass = 0;           ///< of a particle, where masses differ of one of bed.spacing, kg
   double merged_energy = 0;  ///< kinetic, that merging particles lost since the start, J; with levels
   /// Largest mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from
   /// the case, not a field.

@@ -28,9 +28,11 @@ struct Sums {
         fields(load_fields(Layout(p))),
         pairs(setup_with(p, 50), domain, vessel, &fields) {
     std::vector<double> h;
-    for (const double rho : s.density) h.push_back(pairs.smoothing_length(rho));
-    pairs.find_neighbours(team, s.position, h);
-    pairs(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate}, PairTerms::all, rates);
+    for (std::size_t i = 0; i < s.density.size(); ++i) h.push_back(pairs.smoothing_length(s.density[i], s.ratios()[i]));
+    const std::vector<double> margin(h.size());
+    pairs.find_neighbours(team, s.position, h, margin, s.mass_ratio);
+    pairs(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate, s.ratios()}, PairTerms::all,
+          rates);
   }
 };
 
@@ -59,6 +61,7 @@ inline State unfolded(const State& s, const Sector& sector) {
   const auto copy = [](const auto& span) { return std::vector(span.begin(), span.end()); };
   whole.position = copy(view.positions()), whole.velocity = copy(view.vectors("velocity"));
   whole.density = copy(view.scalars("density"));
+  if (!s.mass_ratio.empty()) whole.mass_ratio = copy(view.scalars("mass_ratio"));
   const char* const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
   for (std::size_t c = 0; c < 6; ++c) whole.material.stress[c] = copy(view.scalars(names[c]));
   if (s.deformation_rate[0].empty()) return whole;

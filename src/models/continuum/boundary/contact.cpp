@@ -23,7 +23,8 @@ bool has_friction(const Parameters& p, const State& state) {
 
 /// At which walls hold a particle, m.
 double contact_distance(const ContactSetting& setting, const State& state, std::size_t particle) {
-  return state.mass_ratio.empty() ? setting.distance : cube_root(size_ratio(state.mass_ratio[particle])) * setting.distance;
+  return state.mass_ratio.empty() ? setting.distance
+                                  : cube_root(size_ratio(state.mass_ratio[particle])) * setting.distance;
 }
 
 /// What patches receive in a step, and what fields of the vessel note, by chunk of particles. Sums in fixed point do

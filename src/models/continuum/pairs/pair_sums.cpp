@@ -71,8 +71,9 @@ bool PairSums::are_stabilised(PairTerms terms) const {
 }
 
 double PairSums::smoothing_length(double density, double mass_ratio) const {
-  return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
-                                     : smoothing_ratio_ * sph::smoothing_length(size_ratio(mass_ratio) * mass_, density);
+  return fixed_smoothing_length_ > 0
+             ? fixed_smoothing_length_
+             : smoothing_ratio_ * sph::smoothing_length(size_ratio(mass_ratio) * mass_, density);
 }
 
 void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> density,

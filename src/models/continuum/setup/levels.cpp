@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -64,11 +63,9 @@ int Levels::wanted(const Vector3& x, double slack) const {
   int level = 0;
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
   if (!sector_) return level;
-  const double apart = sector_->radius(x) * 2 * std::numbers::pi / (slack * sector_->copies() * spacing_.x),
-               bound = std::getenv("AXB") ? std::atof(std::getenv("AXB")) : 1.0;
-  while (level > 0 && apart < bound * (1 << level)) --level;
-  if (level > 0) return level;
-  for (double below = bound; level > lightest_level && apart < below; below *= 0.5) --level;
+  const double arc =
+      sector_->radius(x) * 2 * std::numbers::pi / (slack * sector_->copies() * spacing_.x);  // in spacings
+  while (level > lightest_level && arc < std::ldexp(1.0, level)) --level;
   return level;
 }
 

@@ -3,8 +3,12 @@
 /// coarser ones farther away, of twice the spacing at each level. A level begins at twice the distance of the one
 /// before, so that an angle of the flow towards an outlet holds about as many particles at any distance.
 ///
-/// The mass of a particle is a whole number of that of a particle of bed.spacing: splitting and merging (levels.hpp of
-/// the model) move whole parts, and lose none.
+/// About the axis of a sector a particle is a ring with its copies, each with an arc of r times the sector's angle.
+/// Where the arc is shorter than bed.spacing, the ring of a whole particle would be wider or higher than that: there
+/// are halves, quarters and eighths of a particle, levels -1 to -3, with the smoothing length of bed.spacing.
+///
+/// The mass of a particle is a whole number of eighths of that of a particle of bed.spacing: splitting and merging
+/// (splitting.hpp) move whole parts, and lose none.
 #pragma once
 
 #include <array>
@@ -51,7 +55,6 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
 }
 
-/// Halves, quarters and eighths of a particle of bed.spacing about the axis of a sector, levels -1 to -3.
 constexpr int lightest_level = -3;
 
 /// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at
@@ -69,12 +72,13 @@ class Levels {
   explicit Levels(const Layout& layout);
 
   int count() const { return count_; }  ///< of levels coarser than bed.spacing
+  int lightest() const { return sector_ ? lightest_level : 0; }
   /// The level that a particle at x is to have. \param slack factor of the distances at which levels begin
   int wanted(const Vector3& x, double slack = 1) const;
   /// Factor of those distances beyond which particles merge: what has split just now does not merge at once.
   static constexpr double slack_of_merging = 1.15;
-  /// The number of the cell in which particles of a level merge: of twice its spacing, on the lattice of the bed, about
-  /// the axis of a sector one of a ring.
+  /// The number of the cell in which particles of a level merge: of twice its spacing, of bed.spacing below level 0, on
+  /// the lattice of the bed, about the axis of a sector one of a ring.
   std::array<std::int64_t, 3> cell_of(const Vector3& x, int level) const;
 
  private:

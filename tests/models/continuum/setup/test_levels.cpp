@@ -21,6 +21,15 @@ TEST(Levels, TheLevelOfAMassIsTheNearest) {
   EXPECT_EQ(level_of(512), 3);
 }
 
+TEST(Levels, HalvesQuartersAndEighthsAreBelow) {
+  EXPECT_EQ(level_of(0.75), 0);
+  EXPECT_EQ(level_of(0.625), -1);
+  EXPECT_EQ(level_of(0.5), -1);
+  EXPECT_EQ(level_of(0.375), -1);
+  EXPECT_EQ(level_of(0.25), -2);
+  EXPECT_EQ(level_of(0.125), -3);
+}
+
 TEST(Levels, EachBeginsAtTwiceTheDistanceOfTheOneBefore) {
   Parameters p = bed_of_levels(3);
   p.levels.distance = 2 * spacing;
