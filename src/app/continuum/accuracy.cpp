@@ -20,7 +20,7 @@ namespace {
 
 using continuum::Accuracy;
 
-constexpr int copies[] = {36, 30, 24, 20, 18, 15, 12, 10, 9, 8, 6, 5, 4};
+constexpr int copies[] = {18, 15, 12, 10, 9, 8, 6, 5, 4};  // narrower sectors cost more: all their copies meet
 constexpr double across_outlet[] = {8, 12, 20};          // particles, by Accuracy
 constexpr double trial_spacings[] = {25, 50, 100, 200};  // on the width of the box, while the outlet is not known
 constexpr int max_levels = 1;                            // coarser ones arch over an outlet of twelve of the finest

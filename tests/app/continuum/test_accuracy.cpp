@@ -71,7 +71,7 @@ using Found = std::pair<std::string, std::string>;
 TEST(Accuracy, OfADesignSetsSpacingPrecisionAndSector) {
   EXPECT_EQ(of(silo(), "bed.spacing"), Found("0.0025", "accuracy"));
   EXPECT_EQ(of(silo(), "integration.pair_precision"), Found("single", "accuracy"));
-  EXPECT_EQ(of(silo(), "box.sector"), Found("30", "accuracy")) << "narrower ones are too narrow for the outlet";
+  EXPECT_EQ(of(silo(), "box.sector"), Found("20", "accuracy"));
 }
 
 TEST(Accuracy, IsParticlesAcrossTheOutlet) {
