@@ -45,7 +45,7 @@ inline Parameters moving_bed(int levels) {
 inline Parameters sector_of_levels() {
   Parameters p = shut_silo();
   make_divisible(p);
-  p.box.sector = std::numbers::pi / 4;
+  p.box.sector = std::numbers::pi / 2;
   p.vessel.pop_back();
   p.bed.bottom = 7 * spacing, p.bed.height = 12 * spacing;
   p.bed.velocity = {0, 0, -1};

@@ -231,19 +231,19 @@ void expect_split_and_merged(const Parameters& p, const State& s) {
 /// Parts, and those that merge, have neighbours on other processes.
 TEST(Share, ParticlesOfSeveralSizes) {
   const Parameters p = moving_bed(1);
-  const State s = expect_same_bits(p, 150, processes(), true);
+  const State s = expect_same_bits(p, 90, processes(), true);
   expect_split_and_merged(p, s);
   EXPECT_EQ(Content(s).mass_ratio, 24.0 * 8 * 16);
 }
 
 TEST(Share, ParticlesOfSeveralSizesThatLieAnywhere) {
   const Parameters p = moving_bed(2);
-  expect_split_and_merged(p, expect_same_bits(p, 60, Shuffled(processes()), true));
+  expect_split_and_merged(p, expect_same_bits(p, 40, Shuffled(processes()), true));
 }
 
 TEST(Share, ParticlesOfSeveralSizesInASector) {
   const Parameters p = sector_of_levels();
-  const State s = expect_same_bits(p, 150, processes(), true);
+  const State s = expect_same_bits(p, 90, processes(), true);
   expect_split_and_merged(p, s);
   EXPECT_GT(s.population.removed, 0u);
 }
