@@ -22,6 +22,10 @@ import hash_cases
 
 SOON, COARSE_HOPPER = hash_cases.SOON, hash_cases.COARSE_HOPPER
 
+# Grains of several sizes that fall through an outlet, splitting above it and merging below.
+FALLING = {"levels.count": "1", "levels.distance": "4 mm", "gate.opens": "from-the-start",
+           "bed.velocity": '["0 m/s", "0 m/s", "-1 m/s"]'}
+
 # The twelve cases of hash_cases, so long that particles change process, and what they leave out.
 CASES = hash_cases.SHORT | {
     "hopper, midpoint rule, strain from displacements": (
@@ -38,6 +42,10 @@ CASES = hash_cases.SHORT | {
                                       "law.critical-state.tensile_strength": "20 Pa",
                                       "law.critical-state.consolidation_strength": "0.1",
                                       "sph.stress_regularisation": "0.5", "walls.adhesion": "10 Pa"}),
+    "silo of three sizes": ("silo-cone", {"bed.spacing": "3 mm", "run.end": "16 ms", "output.snapshots": "4 ms", **FALLING,
+                                          "levels.count": "2"}),
+    "sector of two sizes": ("silo-cone-sector", {"bed.spacing": "2 mm", "run.end": "16 ms", "output.snapshots": "4 ms",
+                                                 "removal.below": "48 mm", "box.sector": "60 deg", **FALLING}),
     "cloud in a plane": ("niiya2020-circle", {"particles.count": "1500", "run.end": "0.4 ms",
                                               "output.snapshots": "0.1 ms"}),
     "cloud, spectral sum": ("niiya2020-circle", {"particles.count": "1500", "run.end": "0.4 ms",

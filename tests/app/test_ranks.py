@@ -48,6 +48,12 @@ class Ranks(program.ProgramTest):
     def test_inlet_and_removal(self):
         self.check_same("chute with inlet and removal", [(2, 1), (3, 1), (8, 1)])
 
+    def test_particles_of_several_sizes(self):
+        self.check_same("silo of three sizes", [(2, 1), (3, 1), (8, 1)])
+
+    def test_particles_of_several_sizes_in_a_sector(self):
+        self.check_same("sector of two sizes", [(2, 2), (3, 1), (8, 1)])
+
     def run_hopper(self, ranks, program_name, out, *options, name="hopper, vacuum"):
         case, settings = hash_ranks.CASES[name]
         words = hash_ranks.words_of_run(BUILD / program_name, self.folder / out, case, settings, 1)
@@ -65,6 +71,9 @@ class Ranks(program.ProgramTest):
 
     def test_resumed_on_another_number_of_processes(self):
         self.check_resumed("hopper, vacuum", ["3 ms", "5 ms", "8 ms"])
+
+    def test_particles_of_several_sizes_resumed_on_another_number_of_processes(self):
+        self.check_resumed("sector of two sizes", ["5 ms", "10 ms", "16 ms"])
 
     def test_cloud_resumed_on_another_number_of_processes(self):
         self.check_resumed("cloud in a plane", ["0.1 ms", "0.2 ms", "0.4 ms"])
@@ -132,8 +141,6 @@ class Ranks(program.ProgramTest):
                                    ("niiya2020-circle", 3000, "grains for 3000 processes")):
             said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--ranks", ranks, status=2).stderr
             self.assertIn(words, said)
-        said = self.talus("check", hash_ranks.hash_cases.CASES / "mill-silo.toml", "--ranks", 4, status=2).stderr
-        self.assertIn("levels.count: particles of several sizes", said)
 
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")

@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +62,6 @@ struct PreparedCase {
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   /// The part of the model that a process among several has. Null: it runs on one process only.
   std::function<std::unique_ptr<run::AnyModel>(const Ranks& ranks)> make_part;
-  std::optional<Problem> one_process;  ///< why several processes cannot run the case, where the model could
   /// What several processes share: as many processes are the most.
   struct {
     double count = 0;

@@ -366,10 +366,6 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
   prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
-  if (continuum::has_several_masses(setup->given))
-    prepared.one_process = Problem{.key = "levels.count",
-                                   .what = "particles of several sizes are computed by one process only",
-                                   .allowed = "0, or one process: talus run without mpirun or srun"};
   prepared.shared = {.count = continuum::forecast(*setup, end).particles,
                      .name = "particles",
                      .key = "bed.spacing",
@@ -377,7 +373,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.on_ranks = [setup, end](ThreadTeam& team, double step, int ranks) {
     return forecast_on_ranks(*setup, end, air_of_step(*setup, team), step, ranks);
   };
-  prepared.observers = {{.columns = {"position", "velocity", "density", "stress_zz", "strain"},
+  prepared.observers = {{.columns = {"position", "velocity", "density", "stress_zz", "strain", "mass_ratio"},
                          .observe = [setup](const Pieces& pieces) { return observe_hopper(pieces, *setup); }}};
   prepared.forecast = forecast(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };

@@ -272,8 +272,6 @@ void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks) 
     reader.check({{.key = "model",
                    .what = fmt::format("\"{}\" runs on one process only", prepared.model),
                    .allowed = "\"continuum\" or \"cloud\", or one process: talus run without mpirun or srun"}});
-  else if (prepared.one_process && ranks > 1)
-    reader.check({*prepared.one_process});
   else if (const auto& shared = prepared.shared; ranks > shared.count)
     reader.check({{.key = shared.key,
                    .what = fmt::format("makes {:.0f} {} for {} processes", shared.count, shared.name, ranks),

@@ -75,6 +75,18 @@ class Rows {
   std::size_t width_ = 0;
 };
 
+/// Gives every column room for so many particles. \returns their rows
+Rows rows_for(State& s, std::vector<std::int64_t>& place, std::span<std::vector<double>* const> carried,
+              std::size_t count) {
+  resize_columns(s, count);
+  place.resize(count);
+  for (std::vector<double>* const column : carried) column->resize(count);
+  Rows rows(s);
+  rows.add(place);
+  for (std::vector<double>* const column : carried) rows.add(*column);
+  return rows;
+}
+
 }  // namespace
 
 void Share::begin(State& s) {
@@ -94,6 +106,12 @@ void Share::begin(State& s) {
   std::iota(place_.begin(), place_.end(), before);
 }
 
+/// Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
+void Share::cut(std::span<const Vector3> points) {
+  if (!partition_) partition_ = ranks_.partition();
+  partition_->cut(points, std::vector<double>(points.size(), 1.0));
+}
+
 /// Whose the particles will be.
 std::vector<int> Share::owners(const State& s) {
   const auto size = static_cast<std::size_t>(ranks_.size());
@@ -101,7 +119,7 @@ std::vector<int> Share::owners(const State& s) {
   std::vector<int> owner(here, ranks_.rank());
   if (count_ == 0) return owner;
   std::uint64_t least = 0, most = 0;
-  const bool are_at_start = !partition_;
+  const bool are_at_start = least_owned_ > most_owned_;
   const auto note = [&] {
     least_owned_ = std::min(least_owned_, least), most_owned_ = std::max(most_owned_, most);
     if (!are_at_start) moved_ += here - static_cast<std::size_t>(std::count(owner.begin(), owner.end(), ranks_.rank()));
@@ -117,12 +135,43 @@ std::vector<int> Share::owners(const State& s) {
   };
   const double even = static_cast<double>(count_) / static_cast<double>(size);
   if (partition_ && assign() <= uneven * even) return note(), owner;
-  if (!partition_) partition_ = ranks_.partition();
-  // Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
-  partition_->cut(s.list_position, std::vector<double>(here, 1.0));
+  cut(s.list_position);
   assign();
   note();
   return owner;
+}
+
+/// Sends rows of particles, and puts what comes behind those that are here. \param stay who is; null: all
+std::unique_ptr<Plan> Share::send(State& s, std::span<std::vector<double>* const> carried, const ByRank& to,
+                                  const std::vector<std::uint32_t>* stay) {
+  Rows rows = rows_for(s, place_, carried, place_.size());
+  std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
+  std::vector<std::uint64_t> got(rows.width() * plan->received());
+  {
+    const std::vector<std::uint64_t> going = rows.of(to.all());
+    if (stay && stay->size() < place_.size()) rows.take(*stay), rows_for(s, place_, carried, stay->size());
+    plan->exchange(going.data(), rows.width(), got.data());
+  }
+  const std::size_t before = place_.size();
+  rows = rows_for(s, place_, carried, before + plan->received());
+  for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
+  return plan;
+}
+
+void Share::bring(State& s, const std::function<std::optional<Vector3>(std::size_t)>& where) {
+  if (is_all() || count_ == 0) return;
+  const Stopwatch watch(time_.sharing);
+  if (!partition_) cut(s.position);
+  ByRank leaving(ranks_);
+  std::vector<std::uint32_t> stay;
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    const std::optional<Vector3> x = where(i);
+    const int rank = x ? partition_->rank_of(*x) : ranks_.rank();
+    rank == ranks_.rank() ? stay.push_back(static_cast<std::uint32_t>(i)) : leaving.add(rank, i);
+  }
+  if (sum_of(ranks_, place_.size() - stay.size()) == 0) return;
+  send(s, {}, leaving, &stay);
+  rows_for(s, place_, {}, place_.size()).take(by_place(stay.size()));
 }
 
 void Share::distribute(State& s, const Domain& domain, std::span<std::vector<double>* const> carried) {
@@ -136,43 +185,19 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   }
   ranks_.join(votes);
   reach_ = votes.largest[0], margin_ = votes.largest[1];
-  const auto rows_for = [&](std::size_t count) {
-    resize_columns(s, count);
-    place_.resize(count);
-    for (std::vector<double>* const column : carried) column->resize(count);
-    Rows rows(s);
-    rows.add(place_);
-    for (std::vector<double>* const column : carried) rows.add(*column);
-    return rows;
-  };
-  // Sends rows of particles, and puts what comes behind those that stay, for which there is room in between.
-  const auto append = [&](const ByRank& to, const std::vector<std::uint32_t>* stay) {
-    Rows rows = rows_for(place_.size());
-    std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
-    std::vector<std::uint64_t> got(rows.width() * plan->received());
-    {
-      const std::vector<std::uint64_t> going = rows.of(to.all());
-      if (stay && stay->size() < place_.size()) rows.take(*stay), rows_for(stay->size());
-      plan->exchange(going.data(), rows.width(), got.data());
-    }
-    const std::size_t before = place_.size();
-    rows = rows_for(before + plan->received());
-    for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
-    return plan;
-  };
 
   ByRank leaving(ranks_);
   std::vector<std::uint32_t> stay;
   const std::vector<int> owner = owners(s);
   for (std::size_t i = 0; i < owner.size(); ++i)
     owner[i] == ranks_.rank() ? stay.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
-  append(leaving, &stay);
+  send(s, carried, leaving, &stay);
   const std::size_t own = place_.size();
 
   const ByRank copied = halo_of_others(s, domain);
-  std::unique_ptr<Plan> plan = append(copied, nullptr);
+  std::unique_ptr<Plan> plan = send(s, carried, copied, nullptr);
   const std::vector<std::uint32_t> order = by_place(own);
-  rows_for(place_.size()).take(order);
+  rows_for(s, place_, carried, place_.size()).take(order);
   std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
   for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
   for (std::uint32_t& n : sent) n = number[n];

@@ -36,6 +36,13 @@ struct TimeOfSteps {
   double air = 0;       ///< what every process computes alike
 };
 
+/// What splitting adds to the particles of all processes.
+struct Parts {
+  std::uint64_t added = 0;  ///< by all
+  std::vector<std::int64_t>
+      numbers;  ///< of each particle here, among those that are added in their order; -1: it is not
+};
+
 class Share {
  public:
   /// \param ranks outlive it
@@ -59,6 +66,9 @@ class Share {
   /// list_smoothing_length and list_margin. Cuts space again where the work has become uneven.
   /// \pre no halo \param carried more columns of the particles
   void distribute(State& state, const Domain& domain, std::span<std::vector<double>* const> carried);
+  /// Moves particles to the processes whose parts of space hold these places. \pre no halo
+  /// \param where of a particle, m; nothing: it stays
+  void bring(State& state, const std::function<std::optional<Vector3>(std::size_t)>& where);
 
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
@@ -90,6 +100,9 @@ class Share {
   /// Closes the gaps that particles leave which this and other processes take away. \param kept numbers of those that
   /// stay here, rising \returns how many all processes have taken away \pre no halo
   std::size_t remove(std::span<const std::uint32_t> kept);
+  /// Gives the parts of particles that split the places behind the first of them, of one process too. \pre no halo
+  /// \param source of each particle that there will be here which one it comes from, rising
+  Parts split(std::span<const std::uint32_t> source);
 
   /// Reads the particles of all, in their order. \param to memory of the first process
   void read(const State& state, const ColumnPiece& piece, std::byte* to) const;
@@ -119,7 +132,10 @@ class Share {
   double place_of(std::optional<std::size_t> here) const;
   NumericalError::Report told_by(double first, std::optional<std::size_t> here,
                                  const std::function<NumericalError::Report(std::size_t)>& report) const;
+  void cut(std::span<const Vector3> points);
   std::vector<int> owners(const State& state);
+  std::unique_ptr<Plan> send(State& state, std::span<std::vector<double>* const> carried, const ByRank& to,
+                             const std::vector<std::uint32_t>* stay);
   ByRank halo_of_others(const State& state, const Domain& domain) const;
   std::vector<std::uint32_t> by_place(std::size_t own) const;
 

@@ -119,4 +119,41 @@ std::size_t Share::remove(std::span<const std::uint32_t> kept) {
   return gone.size();
 }
 
+Parts Share::split(std::span<const std::uint32_t> source) {
+  struct Split {
+    std::int64_t place, added;
+    bool operator<(const Split& other) const { return place < other.place; }
+  };
+  const auto place_of = [&](std::uint32_t i) { return is_all() ? std::int64_t{i} : place_[i]; };
+  const auto is_added = [&](std::size_t n) { return n > 0 && source[n] == source[n - 1]; };
+  std::vector<Split> splits;
+  for (std::size_t n = 0; n < source.size(); ++n) {
+    if (!is_added(n)) continue;
+    if (!is_added(n - 1)) splits.push_back({place_of(source[n]), 0});
+    ++splits.back().added;
+  }
+  splits = ranks_.gather_values(splits);
+  std::sort(splits.begin(), splits.end());
+  Parts parts;
+  for (const Split& one : splits) parts.added += static_cast<std::uint64_t>(one.added);
+  if (parts.added == 0) return parts;
+
+  std::vector<std::int64_t> place;
+  std::int64_t before = 0;  // added to those that come first in the order of all
+  auto next = splits.begin();
+  std::size_t first = 0;  // of what a particle becomes
+  for (std::size_t n = 0; n < source.size(); ++n) {
+    if (!is_added(n)) {
+      for (; next != splits.end() && next->place < place_of(source[n]); ++next) before += next->added;
+      first = n;
+    }
+    const auto part = static_cast<std::int64_t>(n - first);
+    parts.numbers.push_back(part > 0 ? before + part - 1 : -1);
+    place.push_back(place_of(source[n]) + before + part);
+  }
+  count_ += parts.added;
+  if (!is_all()) place_ = std::move(place);
+  return parts;
+}
+
 }  // namespace talus::continuum

@@ -77,15 +77,15 @@ struct Copies {
   std::vector<std::uint32_t> source;
   std::vector<double> mass_ratio;
   std::vector<Vector3> moved;  ///< m
-  std::vector<char> is_new, is_part;
+  std::vector<double> is_part;
 
   void keep(std::size_t i, double ratio) {
     source.push_back(static_cast<std::uint32_t>(i));
-    mass_ratio.push_back(ratio), moved.emplace_back(), is_new.push_back(0), is_part.push_back(0);
+    mass_ratio.push_back(ratio), moved.emplace_back(), is_part.push_back(0);
   }
-  void add_part(std::size_t of, double ratio, const Vector3& by, bool fresh) {
+  void add_part(std::size_t of, double ratio, const Vector3& by) {
     source.push_back(static_cast<std::uint32_t>(of));
-    mass_ratio.push_back(ratio), moved.push_back(by), is_new.push_back(fresh), is_part.push_back(1);
+    mass_ratio.push_back(ratio), moved.push_back(by), is_part.push_back(1);
   }
 };
 
@@ -103,7 +103,7 @@ void add_parts(const Boundary& boundary, const State& s, std::size_t i, Copies& 
     middle += (mass[n] / ratio) * place[n];
   }
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
-    copies.add_part(i, mass[n], within(boundary, s.position[i], place[n] - middle), n > 0);
+    copies.add_part(i, mass[n], within(boundary, s.position[i], place[n] - middle));
   }
 }
 
@@ -125,38 +125,38 @@ void add_halves(const Boundary& boundary, const State& s, std::size_t i, Halves 
     const Vector3 about = s.position[i] - boundary.domain().sector()->axis(), outwards{about.x, about.y, 0};
     by = {(std::sqrt(0.5) - 1) * outwards, (std::sqrt(1.5) - 1) * outwards};
   }
-  for (std::size_t n = 0; n < 2; ++n) copies.add_part(i, mass[n], within(boundary, s.position[i], by[n]), n > 0);
+  for (std::size_t n = 0; n < 2; ++n) copies.add_part(i, mass[n], within(boundary, s.position[i], by[n]));
 }
 
-void apply(const Copies& copies, State& s) {
+/// \param numbers of those that are new, -1: of others
+void apply(const Copies& copies, const std::vector<std::int64_t>& numbers, State& s) {
   select(s, copies.source);
   for (std::size_t n = 0; n < copies.source.size(); ++n) {
     s.mass_ratio[n] = copies.mass_ratio[n];
     s.position[n] += copies.moved[n];
-    if (copies.is_new[n] && !s.identity.empty())
-      s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
+    if (numbers[n] >= 0 && !s.identity.empty())
+      s.identity[n] = static_cast<std::int64_t>(s.population.next_identity) + numbers[n];
   }
 }
 
 /// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
-/// split; nothing if none has
-std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s, Halves halves = Halves::along_axis) {
+/// split, 1 or 0; nothing if none of all has
+std::optional<std::vector<double>> split(const Levels& levels, const Boundary& boundary, Share& share, State& s,
+                                         Halves halves = Halves::along_axis) {
   Copies copies;
-  bool any = false;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    if (const int level = level_of(s.mass_ratio[i]); level > levels.wanted(s.position[i])) {
-      if (level > 0)
-        add_parts(boundary, s, i, copies);
-      else
-        add_halves(boundary, s, i, halves, copies);
-      any = true;
-    } else {
+    if (const int level = level_of(s.mass_ratio[i]); level <= levels.wanted(s.position[i]))
       copies.keep(i, s.mass_ratio[i]);
-    }
+    else if (level > 0)
+      add_parts(boundary, s, i, copies);
+    else
+      add_halves(boundary, s, i, halves, copies);
   }
-  if (!any) return {};
-  apply(copies, s);
-  return copies.is_part;
+  const Parts parts = share.split(copies.source);
+  if (parts.added == 0) return std::nullopt;
+  apply(copies, parts.numbers, s);
+  s.population.next_identity += parts.added;
+  return std::move(copies.is_part);
 }
 
 /// Where particles of a level and a bed merge.
@@ -168,8 +168,8 @@ struct Cell {
 };
 
 /// Adds up particles that become one, the first of `all`: means by mass of places and velocities, by volume of what is
-/// known of the grains.
-void merge_into_first(const std::vector<std::uint32_t>& all, State& s) {
+/// known of the grains. \returns by how much the kinetic energy falls, J
+double merge_into_first(const std::vector<std::uint32_t>& all, State& s) {
   double mass = 0, volume = 0, energy = 0, ratio = 0;
   for (const std::uint32_t i : all) {
     mass += s.mass_of(i), ratio += s.mass_ratio[i];
@@ -198,20 +198,27 @@ void merge_into_first(const std::vector<std::uint32_t>& all, State& s) {
   s.mass_ratio[all.front()] = ratio;
   s.density[all.front()] = mass / volume;
   const Vector3& v = s.velocity[all.front()];
-  s.merged_energy += energy - 0.5 * mass * dot(v, v);
+  return energy - 0.5 * mass * dot(v, v);
 }
 
 /// Those that are too fine, one level up. \returns whether there were any
-bool merge(const Levels& levels, const Boundary& boundary, State& s) {
-  std::map<Cell, std::vector<std::uint32_t>> cells;
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
+bool merge(const Levels& levels, const Boundary& boundary, Share& share, State& s) {
+  const auto cell_of = [&](std::size_t i) -> std::optional<Cell> {
     const int level = level_of(s.mass_ratio[i]);
-    if (level >= levels.count() || level >= levels.wanted(s.position[i], Levels::slack_of_merging)) continue;
-    cells[{level, s.tag.empty() ? 0 : s.tag[i], levels.cell_of(s.position[i], level)}].push_back(
-        static_cast<std::uint32_t>(i));
-  }
+    if (level >= levels.count() || level >= levels.wanted(s.position[i], Levels::slack_of_merging)) return std::nullopt;
+    return Cell{level, s.tag.empty() ? 0 : s.tag[i], levels.cell_of(s.position[i], level)};
+  };
+  share.bring(s, [&](std::size_t i) -> std::optional<Vector3> {
+    const std::optional<Cell> cell = cell_of(i);
+    if (!cell) return std::nullopt;
+    return levels.middle_of(cell->number, cell->level);
+  });
+  std::map<Cell, std::vector<std::uint32_t>> cells;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    if (const std::optional<Cell> cell = cell_of(i)) cells[*cell].push_back(static_cast<std::uint32_t>(i));
+  const FixedPoint point(s.energy_unit);
+  FixedVector lost;
   std::vector<char> gone(s.position.size(), 0);
-  bool any = false;
   for (const auto& [cell, all] : cells) {
     const bool halves = cell.level < 0;
     if (all.size() < (halves ? min_halves : min_merged) || all.size() > (halves ? max_halves : max_merged)) continue;
@@ -219,14 +226,17 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
       return is_between(boundary, first, s.position[i]);
     };
     if (std::any_of(all.begin() + 1, all.end(), hidden)) continue;
-    merge_into_first(all, s);
+    lost.add(point, {merge_into_first(all, s), 0, 0});
     for (std::size_t n = 1; n < all.size(); ++n) gone[all[n]] = 1;
-    any = true;
   }
-  if (!any) return false;
   std::vector<std::uint32_t> left;
   for (std::size_t i = 0; i < gone.size(); ++i)
     if (!gone[i]) left.push_back(static_cast<std::uint32_t>(i));
+  Votes votes{.least = {}, .largest = {}, .sum = {gone.size() - left.size()}};
+  join(share.ranks(), votes, std::span(&lost, 1));
+  if (votes.sum[0] == 0) return false;
+  s.merged_energy += lost.value(point).x;
+  share.remove(left);
   select(s, left);
   return true;
 }
@@ -234,21 +244,28 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
 /// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
 /// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
 /// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
-/// moves. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves; empty: those move that
-/// have neighbours of another level
-void relax(const Boundary& boundary, double ratio, int passes, const std::vector<char>& is_part, State& s) {
-  constexpr double share = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
-  constexpr double most = 0.2;                 // of h, that one may move
-  ThreadTeam team(1);
-  const std::size_t count = s.position.size();
-  std::vector<double> length, volume, margin;
-  for (std::size_t i = 0; i < count; ++i) {
-    volume.push_back(s.mass_of(i) / s.density[i]);
+/// moves. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves, 1 or 0; empty, of one
+/// process: those move that have neighbours of another level
+void relax(const Boundary& boundary, double ratio, int passes, std::vector<double> is_part, Share& share, State& s) {
+  constexpr double step = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
+  constexpr double most = 0.2;                // of h, that one may move
+  // Lists of their own, for which several processes find a halo.
+  const std::vector<Vector3>& begun = s.list_position = s.position;
+  std::vector<double>&length = s.list_smoothing_length, &margin = s.list_margin;
+  length.clear(), margin.clear();
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
     length.push_back(ratio * cube_root(size_ratio(s.mass_ratio[i]) * s.mass / s.density[i]));
     margin.push_back(most * length.back());
   }
+  share.distribute(s, boundary.domain(), std::array{&is_part});
+  const std::size_t count = s.position.size();
+  std::vector<double> volume;
+  for (std::size_t i = 0; i < count; ++i) volume.push_back(s.mass_of(i) / s.density[i]);
+  std::vector<char> is_still;
+  for (std::size_t i = 0; i < is_part.size(); ++i) is_still.push_back(!share.owns(i) || is_part[i] == 0);
+  ThreadTeam team(1);
   Neighbourhood around(boundary.domain());
-  around.build(team, s.position, length, margin);
+  around.build(team, begun, length, margin, {is_still, share.part().reach, share.part().margin});
   const auto place = [&](std::uint32_t n) {
     if (n < count) return s.position[n];
     const Ghost& ghost = around.ghosts()[n - count];
@@ -260,12 +277,11 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
     const auto differs = [&](std::uint32_t n) {
       return level_of(s.mass_ratio[source(n)]) != level_of(s.mass_ratio[i]);
     };
-    if (is_part.empty() ? std::ranges::any_of(around.of(i), differs) : is_part[i] != 0) moving.push_back(i);
+    if (is_part.empty() ? std::ranges::any_of(around.of(i), differs) : !is_still[i]) moving.push_back(i);
   }
   std::vector<std::optional<Mirror>> walls;
   for (const std::uint32_t i : moving)
     walls.push_back(mirror_near(boundary.vessel(), s.position[i], sph::support * length[i]));
-  const std::vector<Vector3> begun = s.position;
   std::vector<Vector3> by(moving.size());
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t m = 0; m < moving.size(); ++m) {
@@ -289,7 +305,7 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
       };
       add_both(i, x);
       for (const std::uint32_t n : around.of(i)) add_both(source(n), place(n));
-      by[m] = sum > filled ? (-share * length[i] * length[i]) * gradient : Vector3{};
+      by[m] = sum > filled ? (-step * length[i] * length[i]) * gradient : Vector3{};
       if (wall) by[m] -= std::min(dot(by[m], wall->normal), 0.0) * wall->normal;
     }
     for (std::size_t m = 0; m < moving.size(); ++m) {
@@ -297,28 +313,32 @@ void relax(const Boundary& boundary, double ratio, int passes, const std::vector
       const Vector3 moved = s.position[i] + by[m] - begun[i];
       if (norm(moved) < margin[i]) s.position[i] += by[m];
     }
+    share.refresh(std::array{Halo::column(std::span(s.position))});
   }
+  share.drop_halo(s);
 }
 
 }  // namespace
 
-void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
+void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, Share& share, State& s) {
   for (int level = levels.lightest(); level < levels.count(); ++level) {
-    const std::vector<char> is_part = split(levels, boundary, s);
-    if (is_part.empty()) break;
-    relax(boundary, p.sph.smoothing_ratio, passes_after_split, is_part, s);
+    std::optional<std::vector<double>> is_part = split(levels, boundary, share, s);
+    if (!is_part) break;
+    relax(boundary, p.sph.smoothing_ratio, passes_after_split, std::move(*is_part), share, s);
   }
-  merge(levels, boundary, s);
+  merge(levels, boundary, share, s);
 }
 
 void lay_levels(const Setup& setup, State& s) {
   const Levels levels(setup);
+  Share alone(one_process());
   s.mass_ratio.assign(s.position.size(), 1);
-  for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
+  for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, alone, s); ++level) {
   }
   s.merged_energy = 0;
-  for (int level = levels.lightest(); level < 0; ++level) split(levels, *setup.boundary, s, Halves::across_axis);
-  relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, s);
+  for (int level = levels.lightest(); level < 0; ++level) split(levels, *setup.boundary, alone, s, Halves::across_axis);
+  relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, alone, s);
+  s.list_position.clear(), s.list_smoothing_length.clear(), s.list_margin.clear();  // none have been built
 }
 
 }  // namespace talus::continuum

@@ -77,6 +77,7 @@ struct State {
   /// Largest mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from
   /// the case, not a field.
   double impulse_unit = 0;
+  double energy_unit = 0;  ///< the same times the speed of sound, J
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
   /// Of each particle in a sector, how many angles it has been turned back, from 0 to one circle; empty without one.

@@ -117,7 +117,7 @@ struct Gravity {
 
   /// Adds the impulse of all particles within a duration to that of the state.
   void add_impulse(ThreadTeam& team, double duration, State& s, Share& share) const {
-    if (!by_height && s.mass_ratio.empty()) {
+    if (!by_height && !s.has.mass_ratio) {
       s.gravity_impulse += (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
       return;
     }

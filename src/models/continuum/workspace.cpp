@@ -77,7 +77,7 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   drop_halo(p, s, w);
   return_to_sector(w.boundary.domain(), w.material, s);
   if (s.has.mass_ratio) {
-    split_and_merge(w.levels, w.boundary, p, s);
+    split_and_merge(w.levels, w.boundary, p, w.share, s);
     return_to_sector(w.boundary.domain(), w.material, s);
     fit(p, s, w);
     update_smoothing_lengths(team, s, w);

@@ -11,9 +11,8 @@
 #include <map>
 #include <utility>
 
-#include "models/continuum/cases.hpp"
 #include "models/continuum/columns.hpp"
-#include "models/continuum/vessel_parts.hpp"
+#include "models/continuum/level_cases.hpp"
 #include "ranks/petsc/processes.hpp"
 
 namespace talus::continuum {
@@ -147,8 +146,8 @@ std::vector<std::int64_t> owned(const Started& run) {
   return owned;
 }
 
-/// \param must_move whether particles must have changed their owners
-void expect_same_bits(const Parameters& p, int steps, const Ranks& ranks, bool must_move) {
+/// \param must_move whether particles must have changed their owners \returns the state at the end of one process
+State expect_same_bits(const Parameters& p, int steps, const Ranks& ranks, bool must_move) {
   Started alone(p, one_process()), part(p, ranks);
   const std::vector<std::int64_t> at_start = owned(part);
   EXPECT_GE(static_cast<double>(at_start.size() * static_cast<std::size_t>(ranks.size())),
@@ -162,6 +161,7 @@ void expect_same_bits(const Parameters& p, int steps, const Ranks& ranks, bool m
   const std::uint64_t others = sum_of(ranks, owned(part) != at_start);
   EXPECT_TRUE(others > 0 || !must_move);
   EXPECT_EQ(part.workspace.share.of_all(0), alone.state.position.size());
+  return alone.state;
 }
 
 Parameters falling_block() {
@@ -221,6 +221,31 @@ TEST(Share, VesselWithAGate) {
   p.removal.outside = true;
   expect_same_bits(p, 60, processes(), false);
   expect_same_bits(p, 30, Shuffled(processes()), true);
+}
+
+void expect_split_and_merged(const Parameters& p, const State& s) {
+  EXPECT_GT(s.population.next_identity, initial_state(Setup(p)).position.size()) << "nothing has split";
+  EXPECT_GT(s.merged_energy, 0) << "nothing has merged";
+}
+
+/// Parts, and those that merge, have neighbours on other processes.
+TEST(Share, ParticlesOfSeveralSizes) {
+  const Parameters p = moving_bed(1);
+  const State s = expect_same_bits(p, 90, processes(), true);
+  expect_split_and_merged(p, s);
+  EXPECT_EQ(Content(s).mass_ratio, 24.0 * 8 * 16);
+}
+
+TEST(Share, ParticlesOfSeveralSizesThatLieAnywhere) {
+  const Parameters p = moving_bed(2);
+  expect_split_and_merged(p, expect_same_bits(p, 40, Shuffled(processes()), true));
+}
+
+TEST(Share, ParticlesOfSeveralSizesInASector) {
+  const Parameters p = sector_of_levels();
+  const State s = expect_same_bits(p, 90, processes(), true);
+  expect_split_and_merged(p, s);
+  EXPECT_GT(s.population.removed, 0u);
 }
 
 /// Some processes own nothing.

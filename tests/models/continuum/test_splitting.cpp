@@ -64,7 +64,8 @@ TEST(Splitting, KeepsMassMomentumVolumeAndMeansAndBooksTheEnergyThatMergingTakes
   const Content before(s);
   const double stress = volume_mean(s, s.material.stress[0]);
   const auto fine_before = std::count(s.mass_ratio.begin(), s.mass_ratio.end(), 1.0);
-  split_and_merge(Levels{Layout(other)}, *setup.boundary, other, s);
+  Share alone(one_process());
+  split_and_merge(Levels{Layout(other)}, *setup.boundary, other, alone, s);
   const Content after(s);
   EXPECT_EQ(after.mass_ratio, before.mass_ratio);
   EXPECT_NEAR(after.volume, before.volume, 1e-12 * before.volume);
@@ -93,7 +94,8 @@ TEST(Splitting, PartsOfALatticeAreTheLatticeOfTheNextLevel) {
   State s = initial_state(setup);
   for (const double ratio : s.mass_ratio) ASSERT_EQ(ratio, 8);
   p.levels.low = {0, 0, 0}, p.levels.high = {1, 1, 1};
-  split_and_merge(Levels{Layout(p)}, *setup.boundary, p, s);
+  Share alone(one_process());
+  split_and_merge(Levels{Layout(p)}, *setup.boundary, p, alone, s);
   ASSERT_EQ(s.position.size(), 24u * 8 * 16);
   const auto off_lattice = [](double x) { return std::abs(x / spacing - 0.5 - std::round(x / spacing - 0.5)); };
   for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -165,17 +167,8 @@ TEST(Splitting, UnequalMassesOfOneSizeGiveWhatEqualMassesGive) {
   }
 }
 
-/// A bed that slides through the box of fine particles, splitting and merging.
-Parameters moving_bed() {
-  Parameters p = bed_of_levels(1);
-  p.box.left = p.box.right = FaceKind::periodic;
-  p.levels.low = {10 * spacing, 0, 0}, p.levels.high = {12 * spacing, 8 * spacing, 16 * spacing};
-  p.bed.velocity = {1, 0, 0};
-  return p;
-}
-
 TEST(Splitting, ARunKeepsItsBitsOnAnyNumberOfThreadsAndWhenItIsResumed) {
-  const Parameters p = moving_bed();
+  const Parameters p = moving_bed(1);
   ThreadTeam one(1), two(2);
   Continuum a(p), b(p), resumed(p);
   a.begin(one), b.begin(two);

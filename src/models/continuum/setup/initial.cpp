@@ -57,6 +57,7 @@ State initial_state(const Setup& setup, int part, int parts) {
   // A merged particle may have half as much again as its level.
   state.impulse_unit =
       state.mass * setup.sound_speed * (parameters.levels.count > 0 ? std::exp2(3 * parameters.levels.count + 1) : 1);
+  state.energy_unit = state.impulse_unit * setup.sound_speed;
   state.has = {.mass_ratio = has_several_masses(parameters),
                .tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,
@@ -78,7 +79,7 @@ State initial_state(const Setup& setup, int part, int parts) {
     const auto keep = [first, last](auto& column) {
       if (!column.empty()) column = std::decay_t<decltype(column)>(column.begin() + first, column.begin() + last);
     };
-    keep(state.position), keep(state.velocity), keep(state.density), keep(state.tag);
+    keep(state.position), keep(state.velocity), keep(state.density), keep(state.tag), keep(state.mass_ratio);
   }
   const std::size_t count = state.position.size();
   for (std::ptrdiff_t n = first; n < last; ++n) state.identity.push_back(n);

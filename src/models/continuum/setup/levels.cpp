@@ -36,6 +36,10 @@ std::vector<std::array<Vector3, 2>> fine_boxes(const Layout& layout) {
   return boxes;
 }
 
+double angle_of(const Sector& sector) {
+  return 2 * std::numbers::pi / sector.copies();
+}
+
 }  // namespace
 
 Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.levels.count)) {
@@ -71,15 +75,31 @@ int Levels::wanted(const Vector3& x, double slack) const {
 
 std::array<std::int64_t, 3> Levels::cell_of(const Vector3& x, int level) const {
   const auto whole = [](double value) { return static_cast<std::int64_t>(std::floor(value)); };
-  const double size = level < 0 ? 1 : 2.0 * (1 << level);  // in spacings
-  const Vector3 from = x - corner_;
-  const std::int64_t up = whole(from.z / (size * spacing_.z));
-  if (!sector_) return {whole(from.x / (size * spacing_.x)), whole(from.y / (size * spacing_.y)), up};
-  const double angle = 2 * std::numbers::pi / sector_->copies();
+  const Vector3 size = size_of_cell(level), from = x - corner_;
+  const std::int64_t up = whole(from.z / size.z);
+  if (!sector_) return {whole(from.x / size.x), whole(from.y / size.y), up};
   const Vector3 about = x - sector_->axis();
-  const std::int64_t ring = whole(sector_->radius(x) / (size * spacing_.x));
-  const double places = std::max(1.0, std::round((static_cast<double>(ring) + 0.5) * angle));
-  return {ring, whole(std::clamp(std::atan2(about.y, about.x) / angle, 0.0, 1 - 1e-12) * places), up};
+  const std::int64_t ring = whole(sector_->radius(x) / size.x);
+  const double share = std::clamp(std::atan2(about.y, about.x) / angle_of(*sector_), 0.0, 1 - 1e-12);
+  return {ring, whole(share * places_in_ring(ring)), up};
+}
+
+Vector3 Levels::middle_of(const std::array<std::int64_t, 3>& cell, int level) const {
+  const Vector3 size = size_of_cell(level);
+  const auto middle = [&](std::size_t axis) { return static_cast<double>(cell[axis]) + 0.5; };
+  const double z = corner_.z + middle(2) * size.z;
+  if (!sector_) return {corner_.x + middle(0) * size.x, corner_.y + middle(1) * size.y, z};
+  const double radius = middle(0) * size.x, angle = middle(1) / places_in_ring(cell[0]) * angle_of(*sector_);
+  return {sector_->axis().x + radius * std::cos(angle), sector_->axis().y + radius * std::sin(angle), z};
+}
+
+Vector3 Levels::size_of_cell(int level) const {
+  return (level < 0 ? 1 : 2.0 * (1 << level)) * spacing_;
+}
+
+/// How many cells share a ring of a sector.
+double Levels::places_in_ring(std::int64_t ring) const {
+  return std::max(1.0, std::round((static_cast<double>(ring) + 0.5) * angle_of(*sector_)));
 }
 
 double share_of_particles(const Layout& layout) {

@@ -80,8 +80,13 @@ class Levels {
   /// The number of the cell in which particles of a level merge: of twice its spacing, of bed.spacing below level 0, on
   /// the lattice of the bed, about the axis of a sector one of a ring.
   std::array<std::int64_t, 3> cell_of(const Vector3& x, int level) const;
+  /// Its middle, m.
+  Vector3 middle_of(const std::array<std::int64_t, 3>& cell, int level) const;
 
  private:
+  Vector3 size_of_cell(int level) const;
+  double places_in_ring(std::int64_t ring) const;
+
   struct Region {
     Vector3 low, high;  ///< m
   };

@@ -60,6 +60,22 @@ TEST(Levels, OfASlitReachAroundAllOfIt) {
   }
 }
 
+TEST(Levels, TheMiddleOfACellIsInIt) {
+  Parameters in_sector = sector_of_levels();
+  in_sector.levels.count = 2;
+  for (const Parameters& p : {bed_of_levels(2), in_sector}) {
+    const Layout layout(p);
+    const Levels levels(layout);
+    for (const Vector3& x : bed_positions(layout))
+      for (const int level : {0, 1}) {
+        const auto cell = levels.cell_of(x, level);
+        const Vector3 middle = levels.middle_of(cell, level);
+        ASSERT_EQ(levels.cell_of(middle, level), cell);
+        EXPECT_LT(norm(middle - x), 2.0 * (1 << level) * spacing);
+      }
+  }
+}
+
 TEST(Levels, FewerParticlesAreForeseenAsTheyAreLaid) {
   const Parameters p = bed_of_levels(1);
   const auto setup = setup_of(p);
