@@ -62,7 +62,7 @@ class Checkerboard {
 
   /// How far the neighbours of a row are at most, in rows.
   std::size_t reach() const { return static_cast<std::size_t>(count_[1]); }
-  /// Whole blocks for each process.
+  /// Whole blocks for each process, the last plane of rows not parted.
   Slabs dealt(const Ranks& ranks) const;
   /// Slabs of this board, whose cells join those of a finer one, near the slabs of that. \param factor cells joined
   /// along z
@@ -122,7 +122,10 @@ inline Checkerboard::Checkerboard(std::array<int, 3> count, std::array<bool, 3> 
 inline Slabs Checkerboard::dealt(const Ranks& ranks) const {
   const auto size = static_cast<std::size_t>(ranks.size());
   std::vector<std::size_t> border;
-  for (std::size_t r = 0; r <= size; ++r) border.push_back(std::min(rows_, block_ * (blocks() * r / size)));
+  for (std::size_t r = 0; r <= size; ++r) {
+    const std::size_t row = block_ * (blocks() * r / size);
+    border.push_back(r == size || row + reach() > rows_ ? rows_ : row);
+  }
   return {ranks, std::move(border), is_periodic(2)};
 }
 
