@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_slabs = 2;  // that a process needs
 
-Slab common(const Slab& a, const Slab& b) {
+RowRange common(const RowRange& a, const RowRange& b) {
   const std::size_t begin = std::max(a.begin, b.begin);
   return {begin, std::max(begin, std::min(a.end, b.end))};
 }
@@ -20,8 +20,8 @@ Slab common(const Slab& a, const Slab& b) {
 Slabs::Slabs(const Ranks& ranks, std::vector<std::size_t> border, bool is_ring)
     : ranks_(&ranks), border_(std::move(border)), is_ring_(is_ring) {}
 
-std::vector<Slab> Slabs::around(const Reach& reach) const {
-  const Slab mine = own();
+std::vector<RowRange> Slabs::around(const Reach& reach) const {
+  const RowRange mine = own();
   const std::size_t length = mine.size() + reach.before + reach.after;
   if (length == 0) return {};
   if (length >= rows() && is_ring_) return {{0, rows()}};
@@ -33,7 +33,7 @@ std::vector<Slab> Slabs::around(const Reach& reach) const {
 }
 
 void Slabs::include(std::size_t row, Reach& reach) const {
-  const Slab mine = own();
+  const RowRange mine = own();
   if (row >= mine.begin && row < mine.end) return;
   // How far back and on it is, on a ring either way.
   std::size_t back = mine.begin > row ? mine.begin - row : is_ring_ ? mine.begin + rows() - row : rows();
@@ -44,14 +44,14 @@ void Slabs::include(std::size_t row, Reach& reach) const {
     reach.after = std::max(reach.after, on);
 }
 
-Halo Slabs::halo(std::span<const Slab> needed, const ElementsOfRow& elements) const {
+Halo Slabs::halo(std::span<const RowRange> needed, const ElementsOfRow& elements) const {
   if (ranks_->is_alone()) return {};
-  std::vector<Slab> told(needed.begin(), needed.end());
+  std::vector<RowRange> told(needed.begin(), needed.end());
   told.resize(most_slabs);
-  const std::vector<Slab> all = ranks_->gather_values(told);
-  const auto rows_between = [&](int owner, std::span<const Slab> wanted, std::vector<std::uint32_t>& to) {
-    for (const Slab& some : wanted) {
-      const Slab rows = common(some, of(owner));
+  const std::vector<RowRange> all = ranks_->gather_values(told);
+  const auto rows_between = [&](int owner, std::span<const RowRange> wanted, std::vector<std::uint32_t>& to) {
+    for (const RowRange& some : wanted) {
+      const RowRange rows = common(some, of(owner));
       for (std::size_t row = rows.begin; row < rows.end; ++row) elements(row, to);
     }
   };
@@ -69,7 +69,7 @@ Halo Slabs::halo(std::span<const Slab> needed, const ElementsOfRow& elements) co
   return {ranks_->plan(counts), std::move(sent), std::move(received)};
 }
 
-Halo Slabs::halo(std::span<const Slab> needed) const {
+Halo Slabs::halo(std::span<const RowRange> needed) const {
   return halo(needed, [](std::size_t row, std::vector<std::uint32_t>& elements) {
     elements.push_back(static_cast<std::uint32_t>(row));
   });

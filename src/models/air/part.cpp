@@ -7,22 +7,27 @@ namespace talus::air {
 
 namespace {
 
-// Third-order convection reads two velocities on either side, and the faces that are computed reach one beyond.
-constexpr std::size_t reach_before = 2, reach_after = 3, reach_of_solids = 3;
+// In planes of rows. Third-order convection reads two velocities on either side, and the faces that are computed reach
+// one beyond.
+constexpr std::size_t before_midpoint = 2, after_midpoint = 3, around_known = 3;
 
 }  // namespace
 
 Part::Part(const Ranks& processes, const Grid& grid, const Slabs& slabs)
     : ranks(processes), all{{0, slabs.rows()}}, own{slabs.own()}, grid_(grid), slabs_(slabs) {
-  const std::size_t next = slabs.own().size() > 0 ? static_cast<std::size_t>(grid.count[1]) : 0;
-  with_next = slabs.around({0, next});
-  beside = slabs.around({next, next});
-  midpoint = slabs.around({reach_before * next, reach_after * next});
-  known = slabs.around({reach_of_solids * next, reach_of_solids * next});
+  const RowRange rows = slabs.own();
+  const auto plane = static_cast<std::size_t>(grid.count[1]);
+  // Whole planes, within which what is next along y lies, also if y is periodic.
+  const auto around = [&](std::size_t before, std::size_t after) {
+    if (rows.size() == 0) return std::vector<RowRange>{};
+    return slabs.around({plane * before + rows.begin % plane, plane * (after + 1) - 1 - (rows.end - 1) % plane});
+  };
+  with_next = around(0, 1), beside = around(1, 1);
+  midpoint = around(before_midpoint, after_midpoint), known = around(around_known, around_known);
   around_ = halo(known);
 }
 
-Halo Part::halo(std::span<const Slab> needed) const {
+Halo Part::halo(std::span<const RowRange> needed) const {
   constexpr int m = Grid::margin;
   const int ny = grid_.count[1], nz = grid_.count[2];
   // Ghosts along y go with the row next to them, planes of ghosts with the first and the last row.
@@ -48,7 +53,7 @@ void Part::refresh(std::span<CellField* const> fields) {
 
 void Part::gather(std::span<CellField* const> fields) const {
   if (ranks.is_alone()) return;
-  Halo at_first = halo(ranks.is_first() ? all : std::vector<Slab>{});
+  Halo at_first = halo(ranks.is_first() ? all : std::vector<RowRange>{});
   for (CellField* const field : fields) at_first.refresh(std::array{rows_of(grid_, *field)});
 }
 

@@ -15,22 +15,22 @@ namespace talus::air {
 
 struct Part {
   const Ranks& ranks;
-  std::vector<Slab> all, own;
-  std::vector<Slab> with_next;  ///< the own rows and the next ones: the faces around own cells
-  std::vector<Slab> beside;     ///< those on both sides: the cells next to these faces
-  std::vector<Slab> midpoint;   ///< those whose velocities act on these faces
-  std::vector<Slab> known;      ///< those on which a step needs the state and the solids
+  std::vector<RowRange> all, own;
+  std::vector<RowRange> with_next;  ///< the planes of the own rows and the next one: the faces around own cells
+  std::vector<RowRange> beside;     ///< those on both sides: the cells next to these faces
+  std::vector<RowRange> midpoint;   ///< those whose velocities act on these faces
+  std::vector<RowRange> known;      ///< those on which a step needs the state and the solids
 
   /// \param slabs of the rows of cells; \param ranks outlive the part
   Part(const Ranks& ranks, const Grid& grid, const Slabs& slabs);
 
-  Slab own_slab() const { return own.front(); }
+  RowRange own_slab() const { return own.front(); }
   /// Together: brings fields' values on rows that others own, as far as the next step needs them, ghosts among them.
   void refresh(std::span<CellField* const> fields);
   /// Together: brings the first process the values of all rows.
   void gather(std::span<CellField* const> fields) const;
   /// Together: brings fields' values on rows of cells. \param needed by this process, at most two slabs
-  Halo halo(std::span<const Slab> needed) const;
+  Halo halo(std::span<const RowRange> needed) const;
 
  private:
   Grid grid_;

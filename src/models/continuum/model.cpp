@@ -254,7 +254,7 @@ std::optional<GridSnapshot> Continuum::grid() const {
                         .columns = {}};
   std::vector<Vector3> velocity, grains, drag;
   std::vector<double> pressure, fraction;
-  const Slab all{0, air.grid.cells() / static_cast<std::size_t>(air.grid.count[0])};
+  const RowRange all{0, air.grid.cells() / static_cast<std::size_t>(air.grid.count[0])};
   for_each_air_cell(air.grid, all, [&](std::size_t c, std::size_t) {
     const double solid = air.solids.fraction[c];
     Vector3 u, v, s;

@@ -53,7 +53,7 @@ class Checkerboard {
 
   /// Calls body(block, first row, end row) for the rows of slabs in blocks of fixed size.
   template <class Body>
-  void for_each_block(ThreadTeam& team, std::span<const Slab> slabs, Body&& body) const {
+  void for_each_block(ThreadTeam& team, std::span<const RowRange> slabs, Body&& body) const {
     talus::for_each_block(team, slabs, block_, body);
   }
   std::size_t blocks() const { return (rows_ + block_ - 1) / block_; }

@@ -14,9 +14,9 @@
 
 namespace talus {
 
-/// Rows of cells of a grid, (j, k) in the order j + count[1] k. A row of faces goes with the cells above it; at the high
-/// end of y with those within, at that of z with the last row.
-using Slices = std::span<const Slab>;
+/// Rows of cells of a grid, (j, k) in the order j + count[1] k. A row of faces goes with the cells above it; at the
+/// high end of y with those within, at that of z with the last row.
+using Slices = std::span<const RowRange>;
 
 /// Calls body(what make() returns, j, k, begin, end) with the indices of each row of slices of a block of so many
 /// positions from the first cell on; what is made serves one row after another, along y, then z.
@@ -25,14 +25,15 @@ template <class Make, class Body>
 void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Slices slices, Make&& make,
                   Body&& body) {
   constexpr std::size_t rows_at_once = 16;
-  const auto rows_of_plane = static_cast<std::size_t>(count[1]), cells_of_plane = static_cast<std::size_t>(grid.count[1]);
+  const auto rows_of_plane = static_cast<std::size_t>(count[1]),
+             cells_of_plane = static_cast<std::size_t>(grid.count[1]);
   const auto border = [&](std::size_t row) {
     return row == cells_of_plane * static_cast<std::size_t>(grid.count[2])
                ? rows_of_plane * static_cast<std::size_t>(count[2])
                : row % cells_of_plane + rows_of_plane * (row / cells_of_plane);
   };
-  for (const Slab& slice : slices) {
-    const Slab rows{border(slice.begin), border(slice.end)};
+  for (const RowRange& slice : slices) {
+    const RowRange rows{border(slice.begin), border(slice.end)};
     for_each_block(team, std::span(&rows, 1), rows_at_once, [&](std::size_t, std::size_t first, std::size_t last) {
       auto made = make();
       for (std::size_t row = first; row < last; ++row) {
@@ -62,7 +63,7 @@ void for_each_cell(ThreadTeam& team, const Grid& grid, Slices slices, Body&& bod
 
 /// Largest value(index) over the cells of a slab, at least 0.
 template <class Value>
-double max_of_cells(ThreadTeam& team, const Grid& grid, const Slab& slab, Value&& value) {
+double max_of_cells(ThreadTeam& team, const Grid& grid, const RowRange& slab, Value&& value) {
   const int ny = grid.count[1];
   return reduce(
       team, slab.size(), 0.0,

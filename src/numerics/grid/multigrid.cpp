@@ -135,8 +135,8 @@ Multigrid::Multigrid(const Checkerboard& finest, const Slabs& slabs, const Ranks
     }
     const bool was_shared = fine.is_shared;
     Level coarse(Checkerboard(count, periodic), extent);
-    coarse.is_shared = was_shared && coarse.factor != std::array{1, 1, 1} &&
-                       coarse.board.rows() * extent[0].size() >= least_cells;
+    coarse.is_shared =
+        was_shared && coarse.factor != std::array{1, 1, 1} && coarse.board.rows() * extent[0].size() >= least_cells;
     if (was_shared) coarse.slabs = coarse.board.dealt_as(ranks, fine.board, fine.slabs, fine.factor[2]);
     levels_.push_back(std::move(coarse));
   }
@@ -145,19 +145,21 @@ Multigrid::Multigrid(const Checkerboard& finest, const Slabs& slabs, const Ranks
 void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale, bool walls_changed) {
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
-    const std::vector<Slab> all{level.all()};
-    const auto rows = [&](const std::vector<Slab>& own) -> Slices { return walls_changed ? all : own; };
+    const std::vector<RowRange> all{level.all()};
+    const auto rows = [&](const std::vector<RowRange>& own) -> Slices { return walls_changed ? all : own; };
     if (l > 0)
       coarsen(team, levels_[l - 1], level, rows(level.rows.restricted));
     else
-      level.board.for_each_block(team, rows(level.rows.restricted), [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (int colour = 0; colour < 2; ++colour) {
-          const std::size_t first = level.board.run(colour, begin) - 1, length = level.board.run(colour, end) - 1 - first;
-          for (std::size_t a = 0; a < 3; ++a)
-            run_loops::scale(length, scale, finest.low[a].data() + first, level.matrix.low[a].data() + first);
-          run_loops::scale(length, scale, finest.outside.data() + first, level.matrix.outside.data() + first);
-        }
-      });
+      level.board.for_each_block(
+          team, rows(level.rows.restricted), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (int colour = 0; colour < 2; ++colour) {
+              const std::size_t first = level.board.run(colour, begin) - 1,
+                                length = level.board.run(colour, end) - 1 - first;
+              for (std::size_t a = 0; a < 3; ++a)
+                run_loops::scale(length, scale, finest.low[a].data() + first, level.matrix.low[a].data() + first);
+              run_loops::scale(length, scale, finest.outside.data() + first, level.matrix.outside.data() + first);
+            }
+          });
     if (!walls_changed) level.send_matrix();
     level.complete(team, rows(level.rows.known), rows(level.rows.first_red));
     if (walls_changed && l + 1 < levels_.size())

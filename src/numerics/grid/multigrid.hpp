@@ -63,11 +63,11 @@ class Multigrid {
   std::vector<float>& correction() { return levels_.front().value; }
 
  private:
-  using Slices = std::span<const Slab>;
+  using Slices = std::span<const RowRange>;
   /// Where a process computes what of a level; it knows the matrix on all of these.
   struct Rows {
-    std::vector<Slab> restricted, known;  // sums of residuals of the finer level; matrix and source
-    std::vector<Slab> first_red, first_black, corrected, last_black, last_red;
+    std::vector<RowRange> restricted, known;  // sums of residuals of the finer level; matrix and source
+    std::vector<RowRange> first_red, first_black, corrected, last_black, last_red;
   };
   struct Level {
     Checkerboard board;
@@ -83,7 +83,7 @@ class Multigrid {
     Halo known, values;
 
     Level(const Checkerboard& board, std::array<std::vector<float>, 3> extent);
-    Slab all() const { return {0, board.rows()}; }
+    RowRange all() const { return {0, board.rows()}; }
     /// Ghosts, diagonal and its inverse from the conductances.
     void complete(ThreadTeam& team, Slices known, Slices relaxed);
     void send_matrix();

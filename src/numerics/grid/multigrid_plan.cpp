@@ -9,7 +9,7 @@ namespace talus {
 Slabs::Reach Multigrid::joined_rows(const Level& fine, const Level& coarse) {
   Slabs::Reach reach;
   const Aggregates& aggregates = fine.aggregates;
-  const Slab own = coarse.slabs.own();
+  const RowRange own = coarse.slabs.own();
   for (std::size_t r = own.begin; r < own.end; ++r) {
     for_each_joined_row(fine.board, coarse.board, fine.factor, r,
                         [&](std::size_t row, bool, bool) { fine.slabs.include(row, reach); });
@@ -27,7 +27,7 @@ Slabs::Reach Multigrid::joined_rows(const Level& fine, const Level& coarse) {
 /// The coarse rows that the fine rows which are corrected take their corrections from.
 Slabs::Reach Multigrid::joining_rows(const Level& fine, const Level& coarse) {
   Slabs::Reach reach;
-  for (const Slab& rows : fine.rows.corrected)
+  for (const RowRange& rows : fine.rows.corrected)
     for (std::size_t r = rows.begin; r < rows.end; ++r) {
       coarse.slabs.include(joining_row(fine.board, coarse.board, fine.factor, r), reach);
       if (fine.aggregates.empty()) continue;
@@ -48,7 +48,8 @@ void Multigrid::plan(std::size_t l) {
   const bool is_any = level.slabs.own().size() > 0;
   const Slabs::Reach last = {}, before = is_any ? last.more(next) : last;
   const Slabs::Reach last_red = l == 0 ? before : last;
-  const Slabs::Reach last_black = is_any ? last_red.more(next) : last, corrected = is_any ? last_black.more(next) : last;
+  const Slabs::Reach last_black = is_any ? last_red.more(next) : last,
+                     corrected = is_any ? last_black.more(next) : last;
   Slabs::Reach first_black, first_red = corrected;
   if (!is_coarsest && levels_[l + 1].slabs.own().size() > 0) {
     first_black = joined_rows(level, levels_[l + 1]).more(next);
@@ -71,11 +72,12 @@ void Multigrid::plan() {
     if (level.is_shared) {
       plan(l);
     } else {  // all compute all of it, once they have told each other of what they have restricted
-      const std::vector<Slab> all{level.all()};
+      const std::vector<RowRange> all{level.all()};
       level.rows = {{level.slabs.own()}, all, all, all, all, all, all};
       level.known = level.slabs.halo(all);
     }
-    if (l > 0 && level.is_shared) level.values = level.slabs.halo(level.slabs.around(joining_rows(levels_[l - 1], level)));
+    if (l > 0 && level.is_shared)
+      level.values = level.slabs.halo(level.slabs.around(joining_rows(levels_[l - 1], level)));
   }
 }
 

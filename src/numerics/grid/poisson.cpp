@@ -64,7 +64,7 @@ void PoissonSolver::refresh(std::vector<double>& column) {
 
 /// Brings columns' values on all rows: rare, so that the way to them is not kept.
 void PoissonSolver::gather(std::span<std::vector<double>* const> columns) const {
-  Halo all = slabs_.halo(std::vector<Slab>{{0, board_.rows()}});
+  Halo all = slabs_.halo(std::vector<RowRange>{{0, board_.rows()}});
   for (std::vector<double>* const column : columns) all.refresh(board_.columns(*column));
 }
 
@@ -228,7 +228,7 @@ struct PoissonSolver::MultigridCycle {
 void PoissonSolver::remove_constants(std::vector<float>& column) const {
   remove_means(column);
   if (!board_.is_periodic(0)) return;
-  for (const Slab& rows : around_)
+  for (const RowRange& rows : around_)
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = rows.begin; r < rows.end; ++r)
         board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
@@ -240,7 +240,8 @@ int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int max_
   remove_means(residual_);
   board_.for_each_block(team, around_, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
-      std::fill(direction_.data() + board_.run(colour, begin) - 1, direction_.data() + board_.run(colour, end) - 1, 0.0f);
+      std::fill(direction_.data() + board_.run(colour, begin) - 1, direction_.data() + board_.run(colour, end) - 1,
+                0.0f);
   });
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);

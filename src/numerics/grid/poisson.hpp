@@ -97,11 +97,11 @@ class PoissonSolver {
   const Ranks& ranks_;
   Checkerboard board_;
   Slabs slabs_;
-  std::vector<Slab> own_, around_;  // rows; with those of neighbours
+  std::vector<RowRange> own_, around_;  // rows; with those of neighbours
   Halo neighbours_;
   Multigrid::Matrix<double> matrix_;
   Multigrid multigrid_;
-  double scale_ = 1;                              // scales the conductances to about 1
+  double scale_ = 1;  // scales the conductances to about 1
   /// A closed region: cells in the board's order.
   struct Region {
     std::vector<std::size_t> own, beside;  // on own rows, and on those of neighbours
@@ -110,8 +110,8 @@ class PoissonSolver {
     bool is_counted;                       // by this process: its first row is own
   };
   std::vector<Region> closed_;
-  bool is_new_ = true;                            // no conductances yet
-  std::vector<double> outside_before_;            // of matrix_, before the last conductances
+  bool is_new_ = true;                  // no conductances yet
+  std::vector<double> outside_before_;  // of matrix_, before the last conductances
   // In the board's order. Pads of source_, residual_ and applied_ are zero, so that they do not contribute to sums.
   std::vector<double> source_, value_, residual_;
   std::vector<float> direction_, applied_, change_;                // of the refinement, scaled
@@ -124,9 +124,8 @@ class PoissonSolver {
 template <class Body>
 double PoissonSolver::sum_of_blocks(ThreadTeam& team, Body&& body) {
   partial_.assign(board_.blocks(), 0);
-  board_.for_each_block(team, own_, [&](std::size_t block, std::size_t begin, std::size_t end) {
-    body(begin, end, partial_[block]);
-  });
+  board_.for_each_block(
+      team, own_, [&](std::size_t block, std::size_t begin, std::size_t end) { body(begin, end, partial_[block]); });
   ranks_.add_up(partial_);
   return exact_sum(partial_);
 }

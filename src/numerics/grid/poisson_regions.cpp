@@ -59,8 +59,8 @@ void PoissonSolver::find_closed_regions() {
 /// Keeps what this process has to do with a region. A cell by itself is known to all that have it on their rows.
 void PoissonSolver::take_region(const std::vector<std::size_t>& cells) {
   Region region{.own = {}, .beside = {}, .size = cells.size(), .is_parted = false, .is_counted = false};
-  const auto is_on = [&](std::span<const Slab> slabs, std::size_t row) {
-    return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& s) { return row >= s.begin && row < s.end; });
+  const auto is_on = [&](std::span<const RowRange> slabs, std::size_t row) {
+    return std::any_of(slabs.begin(), slabs.end(), [&](const RowRange& s) { return row >= s.begin && row < s.end; });
   };
   std::size_t first = board_.rows(), last = 0;
   for (const std::size_t c : cells) {

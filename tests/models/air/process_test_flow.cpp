@@ -35,11 +35,11 @@ Solids known(const Solids& all, const Setting& setting, const Part& part) {
   Solids solids(setting.grid);
   const auto copy = [&](const CellField& from, CellField& to) {
     std::fill(to.begin(), to.end(), std::nan(""));
-    for (const Slab& slab : part.known)
+    for (const RowRange& slab : part.known)
       for (std::size_t row = slab.begin; row < slab.end; ++row) {
-        const auto begin = static_cast<std::ptrdiff_t>(
-            setting.grid.index(-Grid::margin, static_cast<int>(row) % setting.grid.count[1],
-                               static_cast<int>(row) / setting.grid.count[1]));
+        const auto begin =
+            static_cast<std::ptrdiff_t>(setting.grid.index(-Grid::margin, static_cast<int>(row) % setting.grid.count[1],
+                                                           static_cast<int>(row) / setting.grid.count[1]));
         std::copy_n(from.begin() + begin, setting.grid.length(0), to.begin() + begin);
       }
   };

@@ -103,7 +103,7 @@ class Solvers {
  private:
   template <class Body>
   void for_each_own(const Problem& problem, Body&& body) const {
-    const Slab own = all_.slabs().own();
+    const RowRange own = all_.slabs().own();
     problem.for_each_cell([&](int, int j, int k, std::size_t c) {
       const auto row = static_cast<std::size_t>(j + problem.grid.count[1] * k);
       if (row >= own.begin && row < own.end) body(c);
@@ -111,7 +111,7 @@ class Solvers {
   }
   template <class Body>
   void for_each_other(const Problem& problem, Body&& body) const {
-    const Slab own = all_.slabs().own();
+    const RowRange own = all_.slabs().own();
     problem.for_each_cell([&](int, int j, int k, std::size_t c) {
       const auto row = static_cast<std::size_t>(j + problem.grid.count[1] * k);
       if (row < own.begin || row >= own.end) body(c);

@@ -112,7 +112,7 @@ inline constexpr int turns_of_cells = 8;
 /// Calls body(cell, turn) for rows of cells. Largest numbers and sums over the cells go on in several places in turn,
 /// so that one does not wait for the last.
 template <class Body>
-void for_each_air_cell(const Grid& grid, const Slab& rows, Body&& body) {
+void for_each_air_cell(const Grid& grid, const RowRange& rows, Body&& body) {
   for (std::size_t row = rows.begin; row < rows.end; ++row) {
     const int j = static_cast<int>(row) % grid.count[1], k = static_cast<int>(row) / grid.count[1];
     const std::size_t begin = grid.index(0, j, k), end = begin + static_cast<std::size_t>(grid.count[0]);

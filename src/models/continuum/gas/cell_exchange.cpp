@@ -11,7 +11,7 @@ namespace {
 // Planes of cells around those of the particles, so that they may move without new plans, and the most that are kept.
 constexpr std::size_t room = 2, most_room = 8;
 
-std::vector<Slab> two(std::vector<Slab> slabs) {
+std::vector<RowRange> two(std::vector<RowRange> slabs) {
   slabs.resize(2);
   return slabs;
 }
@@ -29,7 +29,7 @@ void CellExchange::find_rows(const coupling::Deposition& deposition) {
     const std::size_t row = cell / grid_.length(0), m = Grid::margin;
     return row % grid_.length(1) - m + static_cast<std::size_t>(grid_.count[1]) * (row / grid_.length(1) - m);
   };
-  const Slab now = cells[0] > cells[1] ? Slab{} : Slab{row_of(cells[0]), row_of(cells[1]) + 1};
+  const RowRange now = cells[0] > cells[1] ? RowRange{} : RowRange{row_of(cells[0]), row_of(cells[1]) + 1};
   const std::size_t plane = static_cast<std::size_t>(grid_.count[1]);
   const bool fits = now.size() == 0 || (touched_.begin <= now.begin && now.end <= touched_.end &&
                                         touched_.size() <= now.size() + 2 * most_room * plane);
@@ -42,9 +42,9 @@ void CellExchange::find_rows(const coupling::Deposition& deposition) {
 
 void CellExchange::plan() {
   const Ranks& ranks = part_.ranks;
-  const std::vector<Slab> touched = ranks.gather_values(std::vector{touched_});
-  const auto add = [&](const Slab& of_particles, int owner, std::vector<std::uint32_t>& rows) {
-    for (const Slab& known : std::span(known_).subspan(2 * static_cast<std::size_t>(owner), 2))
+  const std::vector<RowRange> touched = ranks.gather_values(std::vector{touched_});
+  const auto add = [&](const RowRange& of_particles, int owner, std::vector<std::uint32_t>& rows) {
+    for (const RowRange& known : std::span(known_).subspan(2 * static_cast<std::size_t>(owner), 2))
       for (std::size_t row = std::max(known.begin, of_particles.begin); row < std::min(known.end, of_particles.end);
            ++row)
         rows.push_back(static_cast<std::uint32_t>(

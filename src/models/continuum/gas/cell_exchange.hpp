@@ -32,8 +32,8 @@ class CellExchange {
 
   Grid grid_;
   const air::Part& part_;
-  std::vector<Slab> known_;  // rows that each process knows, two slabs of each
-  Slab touched_;             // by particles of this process, with room to move
+  std::vector<RowRange> known_;  // rows that each process knows, two slabs of each
+  RowRange touched_;             // by particles of this process, with room to move
   std::unique_ptr<Plan> deposits_;
   std::vector<std::uint32_t> sent_, received_;  // rows of the grid
   std::vector<double> going_, coming_;
