@@ -64,12 +64,7 @@ void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing
   add_to_excess(1);
   find_weights(team, smoothing_length, s);
   deposit(team, s);
-  if (flow_.part().ranks.is_alone()) {
-    add_up_all(s.air.solids);
-  } else {
-    exchange_.find_rows(deposition_);
-    exchange_.add_up(s.air.solids);
-  }
+  add_up(s.air.solids);
   leave_overfull(s.air.solids);
   add_to_excess(-1);
   const Stopwatch watch(share_.time().air);
@@ -96,7 +91,7 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   const auto size = [&](std::ptrdiff_t c) { return std::abs(pressure[c]); };
   a.swing_max = std::max(a.swing_max, largest_of(part.ranks, max_of_cells(team, a.grid, part.own_slab(), size)));
   watch.reset();
-  exchange_.bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2]});
+  bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2]});
   received_.resize(s.position.size());
   deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
@@ -122,10 +117,24 @@ void Atmosphere::deposit(ThreadTeam& team, State& s) const {
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
 }
 
-/// The deposits of all processes, on all cells.
+/// The deposits of all processes, where this one needs them.
+void Atmosphere::add_up(air::Solids& solids) {
+  if (flow_.part().ranks.is_alone()) return add_up_all(solids);
+  const Stopwatch watch(share_.time().messages);
+  exchange_.find_rows(deposition_);
+  exchange_.add_up(solids);
+}
+
+/// The same on all cells.
 void Atmosphere::add_up_all(air::Solids& solids) const {
   share_.ranks().add_up(solids.fraction);
   for (CellField& component : solids.flux) share_.ranks().add_up(component);
+}
+
+/// Fields of cells to the rows of the particles.
+void Atmosphere::bring(std::span<CellField* const> fields) {
+  const Stopwatch watch(share_.time().messages);
+  exchange_.bring(fields);
 }
 
 /// A cell whose centre is within the vessel has the grains of the cells next to it that the wall cuts, too. What is
@@ -160,7 +169,7 @@ void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
     air::find_slip_of_row(end - begin, flow_.cells_from(begin, a.solids, a.flow.velocity), x.data() + begin,
                           y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
-  exchange_.bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2], &slip_square_});
+  bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2], &slip_square_});
   const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
   const double slip = largest_of(share_.ranks(), deposition_.max_mean(team, per_solid_volume_, slip_square_,
                                                                       s.air.reynolds_max / reynolds_of_one));

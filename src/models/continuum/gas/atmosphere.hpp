@@ -81,7 +81,9 @@ class Atmosphere {
   void move_air(ThreadTeam& team, double dt, State& state);
   void find_weights(ThreadTeam& team, std::span<const double> smoothing_length, const State& state);
   void deposit(ThreadTeam& team, State& state) const;
+  void add_up(air::Solids& solids);
   void add_up_all(air::Solids& solids) const;
+  void bring(std::span<CellField* const> fields);
   void leave_overfull(air::Solids& solids);
   void measure_slip(ThreadTeam& team, State& state);
 
