@@ -221,10 +221,21 @@ TEST(Share, AirWhoseCellsAreShared) {
   p.air.enabled = true;
   p.air.cell = spacing / 3;
   ASSERT_TRUE(is_air_shared(air_grid(p)));
-  expect_same_bits(p, 40, processes(), false);
+  expect_same_bits(p, 12, processes(), false);
   p.box.left = p.box.right = FaceKind::periodic;
   p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
-  expect_same_bits(p, 20, Shuffled(processes()), true);
+  expect_same_bits(p, 8, Shuffled(processes()), false);
+}
+
+/// The gate opens on the way: the air meets other walls.
+TEST(Share, SharedAirInAVessel) {
+  Parameters p = shut_silo();
+  p.gate.opens = GateOpens::at_time;
+  p.gate.time = 4e-4;
+  p.air.enabled = true;
+  p.air.cell = spacing / 1.5;
+  ASSERT_TRUE(is_air_shared(air_grid(p)));
+  expect_same_bits(p, 15, processes(), false);
 }
 
 TEST(Share, VesselWithAGate) {
