@@ -44,6 +44,26 @@ std::uint64_t sum_of(const Ranks& ranks, std::uint64_t vote) {
   return votes.sum[0];
 }
 
+NumericalError::Report report_of_one(const Ranks& ranks, NumericalError::Report own) {
+  for (std::string* const text : {&own.what, &own.term, &own.place, &own.advice}) *text = ranks.gather(*text);
+  return own;
+}
+
+void together(const Ranks& ranks, const std::function<void()>& act) {
+  if (ranks.is_alone()) return act();
+  NumericalError::Report own{};
+  Votes votes{.least = {static_cast<double>(ranks.size())}, .largest = {}, .sum = {}};
+  try {
+    act();
+  } catch (const NumericalError& error) {
+    own = error.report(), votes.least[0] = ranks.rank();
+  }
+  ranks.join(votes);
+  const int first = static_cast<int>(votes.least[0]);
+  if (first < ranks.rank()) own = {};
+  if (first < ranks.size()) throw NumericalError(report_of_one(ranks, own));
+}
+
 void join(const Ranks& ranks, Votes& votes, std::span<FixedVector> sums) {
   if (ranks.is_alone()) return;
   const std::size_t before = votes.sum.size();

@@ -7,12 +7,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/exact_sum.hpp"
 #include "base/vector.hpp"
 
@@ -80,7 +82,7 @@ class Ranks {
   /// Together: the votes of all.
   virtual void join(Votes& votes) const = 0;
   /// Together: sums over all processes, place by place. \pre the terms of a sum are multiples of one power of two, and
-  /// their sums less than 2^53 times that: then they are integers, exact and of no order
+  /// their sums less than 2^53 times that: then they are integers, exact and of no order; or all but one are zero
   virtual void add_up(std::span<double> sums) const = 0;
   /// Together: the bytes of all processes, in their order. For what is small.
   virtual std::string gather(const std::string& own) const = 0;
@@ -148,6 +150,10 @@ struct ByRank {
 bool all_of(const Ranks& ranks, bool vote);
 double largest_of(const Ranks& ranks, double vote);
 std::uint64_t sum_of(const Ranks& ranks, std::uint64_t vote);
+/// What one process reports; the others have an empty report.
+NumericalError::Report report_of_one(const Ranks& ranks, NumericalError::Report own);
+/// Does what may fail at some processes; then all throw what the first of those has met.
+void together(const Ranks& ranks, const std::function<void()>& act);
 /// Exact, as sums in fixed point are.
 void sum_up(const Ranks& ranks, FixedSums& sums);
 void sum_up(const Ranks& ranks, std::span<FixedVector> sums);

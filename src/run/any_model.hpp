@@ -47,6 +47,7 @@ class AnyModel {
   // Several processes: see Continuum.
   virtual bool has_parts() const { return false; }  ///< each has a part of the particles, and not all
   virtual void gather() {}
+  virtual void gather_fields() {}
   virtual void lead(const std::function<void(const ColumnPiece&)>& /*announce*/) {}
   virtual void send(const ColumnPiece& /*piece*/) {}
   /// What each of them had to do, as gathered, in words for the log; empty of one process.
@@ -124,6 +125,9 @@ class ModelAdapter final : public AnyModel {
   bool has_parts() const override { return has_columns<M>; }
   void gather() override {
     if constexpr (requires { model_.gather(); }) model_.gather();
+  }
+  void gather_fields() override {
+    if constexpr (requires { model_.gather_fields(); }) model_.gather_fields();
   }
   std::string sharing() const override {
     if constexpr (requires { model_.sharing(); }) return model_.sharing();

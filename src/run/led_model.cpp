@@ -52,11 +52,11 @@ class LedModel final : public AnyModel {
   }
   Snapshot snapshot() const override { return whole().snapshot(); }
   PointSource stored() const override { return whole().stored(); }
-  std::optional<GridSnapshot> grid() const override { return whole().grid(); }
+  std::optional<GridSnapshot> grid() const override { return with_fields().grid(); }
   std::optional<SurfaceSnapshot> walls() const override { return whole().walls(); }
   std::vector<NamedValue> totals() const override { return whole().totals(); }
   std::vector<RegimeLine> regime(const RunRecord& record) const override { return whole().regime(record); }
-  void save(CheckpointWriter& checkpoint) const override { whole().save(checkpoint); }
+  void save(CheckpointWriter& checkpoint) const override { with_fields().save(checkpoint); }
   void read(const CheckpointReader& checkpoint) override {
     together(Order::read, [&] {
       followers_.ranks_.gather(checkpoint.path().string());
@@ -85,7 +85,8 @@ class LedModel final : public AnyModel {
       print_error("talus: {}\n", error.what());
       followers_.ranks_.abort(static_cast<int>(ExitStatus::numerical));
     }
-    is_whole_ = order == Order::gather;
+    is_whole_ = order == Order::gather || (order == Order::gather_fields && is_whole_);
+    has_fields_ = order == Order::gather_fields || (order == Order::gather && has_fields_);
   }
 
   /// The model that knows of all particles, for which it is gathered once in a step.
@@ -94,9 +95,15 @@ class LedModel final : public AnyModel {
     return *model_;
   }
 
+  /// The same with the fields of all processes.
+  const AnyModel& with_fields() const {
+    if (!has_fields_ && !followers_.have_left_) together(Order::gather_fields, [&] { model_->gather_fields(); });
+    return whole();
+  }
+
   std::unique_ptr<AnyModel> model_;
   Followers& followers_;
-  mutable bool is_whole_ = false;
+  mutable bool is_whole_ = false, has_fields_ = false;
 };
 
 std::unique_ptr<AnyModel> led_model(std::unique_ptr<AnyModel> model, Followers& followers) {
@@ -126,6 +133,9 @@ void follow(AnyModel& model, ThreadTeam& team, const Ranks& ranks) {
         break;
       case Order::gather:
         model.gather();
+        break;
+      case Order::gather_fields:
+        model.gather_fields();
         break;
       case Order::leave:
         return;

@@ -12,7 +12,7 @@
 
 namespace talus::run {
 
-enum class Order : std::uint64_t { begin, read, resume, advance, gather, send, limit, leave };
+enum class Order : std::uint64_t { begin, read, resume, advance, gather, gather_fields, send, limit, leave };
 
 /// The other processes, at the first one. They are in follow() as long as this lives, or until a step has failed.
 class Followers {

@@ -33,6 +33,9 @@ class Ranks(program.ProgramTest):
     def test_air(self):
         self.check_same("hopper, air", [(2, 1), (3, 2)])
 
+    def test_air_whose_cells_are_shared(self):
+        self.check_same("shared air", [(2, 2), (3, 1)])
+
     def test_vessel(self):
         self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
 

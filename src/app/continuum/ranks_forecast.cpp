@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/setup/forecast.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -20,6 +21,7 @@ constexpr double of_copy = 450e-9;  // s a step: messages, migration, halo
 // Assumed of an ordinary network.
 constexpr double of_message_to_all = 3e-6;   // s, for each doubling of the processes; two a step
 constexpr double of_deposited_cell = 30e-9;  // s a step of the air: 32 bytes to all
+constexpr double of_shared_air = 2e-3;       // s a step of the air: some 200 messages
 constexpr double uneven = 1.05;              // the largest work over the mean
 constexpr double libraries = 47e6;           // of talus-mpi, bytes
 constexpr double of_particle = 1250;         // bytes
@@ -74,8 +76,12 @@ Lines forecast_on_ranks(const continuum::Setup& setup, double end, const AirOfSt
   const PartOfBed part = largest_part(sides, ranks, reach);
 
   const double of_air = std::min(0.99 * step, air.seconds * f.cells);
-  const double on_each = of_air + uneven * (step - of_air) / ranks + of_copy * part.copies +
-                         2 * of_message_to_all * std::log2(ranks) + of_deposited_cell * f.cells * air.deposits;
+  const bool is_shared = of_air > 0 && continuum::is_air_shared(continuum::air_grid(p));
+  const double of_deposits = of_deposited_cell * f.cells / (is_shared ? ranks : 1);
+  const double air_on_each =
+      (is_shared ? of_air / ranks + of_shared_air * air.deposits : of_air) + of_deposits * air.deposits;
+  const double on_each =
+      air_on_each + uneven * (step - of_air) / ranks + of_copy * part.copies + 2 * of_message_to_all * std::log2(ranks);
   const double efficiency = step / (ranks * on_each);
   const double least = f.settling_steps + f.flow_steps, most = f.max_settling_steps + f.flow_steps;
   // Every process has the vessel.
@@ -88,7 +94,10 @@ Lines forecast_on_ranks(const continuum::Setup& setup, double end, const AirOfSt
                  {"time", run::format_seconds(least * on_each) +
                               (most > least ? " to " + run::format_seconds(most * on_each) : std::string())},
                  {"memory", fmt::format("{:.0f} MB on each, {:.3g} MB in all", 1e-6 * memory, 1e-6 * ranks * memory)}};
-  if (of_air > 0)
+  if (is_shared)
+    lines.emplace_back("air", fmt::format("shared: {:.3g} ms of a step on each, {:.3g} ms on one process",
+                                          1e3 * air_on_each, 1e3 * of_air));
+  else if (of_air > 0)
     lines.emplace_back("air", fmt::format("every process computes all of it, {:.3g} ms of a step: it pays up to some "
                                           "{:.0f} processes, on which the grains take as long",
                                           1e3 * of_air, std::max(1.0, std::ceil((step - of_air) / of_air))));

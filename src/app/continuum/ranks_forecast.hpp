@@ -7,7 +7,7 @@
 
 namespace talus::app {
 
-/// What every process computes alike: the air. Of a cell, spread over the steps of the particles.
+/// The air, of a cell, spread over the steps of the particles.
 struct AirOfStep {
   double seconds = 0;   ///< of a cell in a step of the particles
   double deposits = 0;  ///< steps of the air in one of the particles
@@ -23,8 +23,9 @@ struct PartOfBed {
 /// \param sides of the bed, in particles \param parts that it is cut into \param reach of a copy, in particles
 PartOfBed largest_part(const std::array<double, 3>& sides, int parts, double reach);
 
-/// Lines of a name and a text: particles on each, time of a step and of the run, efficiency, memory; in air up to how
-/// many processes it pays that each computes all of it. \param end of the run, s \param step seconds on one process
+/// Lines of a name and a text: particles on each, time of a step and of the run, efficiency, memory; in air of
+/// few cells up to how many processes it pays that each computes all of it. \param end of the run, s \param step
+/// seconds on one process
 Lines forecast_on_ranks(const continuum::Setup& setup, double end, const AirOfStep& air, double step, int ranks);
 
 }  // namespace talus::app

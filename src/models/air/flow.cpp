@@ -29,13 +29,15 @@ Parameters with_moving_walls(Parameters p) {
 
 }  // namespace
 
-AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls, const Surface& surface)
+AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls, const Surface& surface,
+                 const Ranks& ranks)
     : parameters_(with_moving_walls(parameters)),
       medium_(parameters_.medium()),
       apertures_(grid, parameters_.boundaries, walls, surface),
       convection_(apertures_),
-      viscosity_(apertures_),
-      solver_(grid, periodic_axes(parameters.boundaries)),
+      solver_(grid, periodic_axes(parameters.boundaries), ranks),
+      part_(ranks, grid, solver_.slabs()),
+      viscosity_(apertures_, part_),
       drag_(grid.cell_field()),
       source_(drag_) {
   for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_,
@@ -61,6 +63,8 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   }
   move(team, dt, state);
   finish(team, dt, state, impulse);
+  part_.refresh(std::array{&state.velocity[0], &state.velocity[1], &state.velocity[2], &stream_.mass[0],
+                           &stream_.mass[1], &stream_.mass[2]});
   for (std::size_t a = 0; a < 3; ++a) {
     apertures_.wrap(state.velocity[a]), apertures_.wrap(stream_.mass[a]);
     std::swap(state.momentum_before[a], state.momentum[a]), std::swap(state.momentum[a], stream_.mass[a]);
@@ -72,21 +76,22 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
 /// before, and the velocity that it has in the new void fraction; the drag at that velocity.
 void AirFlow::extrapolate(ThreadTeam& team, double dt, const Solids& solids, const AirState& state) {
   const Grid& grid = apertures_.grid;
-  check_fractions(team, solids.fraction);
+  together(part_.ranks, [&] { check_fractions(team, part_.own, solids.fraction); });
   const double share = state.last_step > 0 ? 0.5 * dt / state.last_step : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      find_solids(solids, axis, j, k, begin, end);
-      extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
-                      state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
-                      stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
-    });
+    for_each_row(team, grid, apertures_.faces(axis), part_.midpoint,
+                 [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   find_solids(solids, axis, j, k, begin, end);
+                   extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
+                                   state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
+                                   stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
+                 });
     for (CellField* field : {&solid_fraction_[a], &void_fraction_[a], &grain_velocity_[a], &stream_.velocity[a]})
       apertures_.wrap(*field);
   }
   convection_.fill_ghosts(stream_);
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
+  for_each_row(team, grid, grid.count, part_.beside, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
     if (!implicit_) viscosity_.find_velocity_divergence_of_row(grid.row(j, k), begin, stream_.velocity);
     measure_drag_of_row(begin, cells_from(begin, solids, stream_.velocity));
   });
@@ -95,10 +100,11 @@ void AirFlow::extrapolate(ThreadTeam& team, double dt, const Solids& solids, con
 
 /// What air that does not move does to the grains.
 void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
-  for_each_row(team, apertures_.grid, apertures_.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
+  const Grid& grid = apertures_.grid;
+  for_each_row(team, grid, grid.count, part_.own, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
     measure_drag_of_row(begin, cells_from(begin, solids, state.velocity));
   });
-  for_each_cell(team, apertures_.grid, [&](int, int, int, std::ptrdiff_t index) {
+  for_each_cell(team, grid, part_.own, [&](int, int, int, std::ptrdiff_t index) {
     const auto c = static_cast<std::size_t>(index);
     const double s = solids.fraction[c];
     for (std::size_t a = 0; a < 3; ++a) {
@@ -126,7 +132,7 @@ void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
                     std::vector<double>(static_cast<std::size_t>(apertures_.faces(axis, 0)))};
     };
     // Row by row, so that what one loop finds is at hand for the next.
-    for_each_row(team, grid, apertures_.faces(axis), make,
+    for_each_row(team, grid, apertures_.faces(axis), part_.with_next, make,
                  [&](Forces& forces, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
                    const std::size_t row = grid.row(j, k);
                    const DistinctRows& open = apertures_.rows.open[a];
@@ -164,6 +170,7 @@ void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
     add_pressure(team, -dt, state.pressure);
   }
   project(team, dt, state);
+  part_.refresh(std::array{&state.pressure});
   fill_ghosts(state.pressure);
 }
 
@@ -184,16 +191,17 @@ void AirFlow::add_pressure(ThreadTeam& team, double dt, CellField& pressure) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double factor = dt / (parameters_.density() * grid.spacing[axis]);
-    for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const double* high = pressure.data() + begin;
-      add_pressure_row(end - begin, factor, grains_share(),
-                       {.open = apertures_.open[a].data() + begin,
-                        .void_fraction = void_fraction_[a].data() + begin,
-                        .mean = mean_[a].data() + begin,
-                        .low = high - grid.stride(axis),
-                        .high = high},
-                       stream_.velocity[a].data() + begin);
-    });
+    for_each_row(team, grid, apertures_.faces(axis), part_.with_next,
+                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   const double* high = pressure.data() + begin;
+                   add_pressure_row(end - begin, factor, grains_share(),
+                                    {.open = apertures_.open[a].data() + begin,
+                                     .void_fraction = void_fraction_[a].data() + begin,
+                                     .mean = mean_[a].data() + begin,
+                                     .low = high - grid.stride(axis),
+                                     .high = high},
+                                    stream_.velocity[a].data() + begin);
+                 });
   }
 }
 
@@ -201,7 +209,7 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
   set_solids(team, solids);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t face) {
+    for_each_face(team, apertures_, axis, part_.all, [&](std::ptrdiff_t face) {
       const auto f = static_cast<std::size_t>(face);
       state.velocity[a][f] *= apertures_.open[a][f];
       state.momentum[a][f] = parameters_.density() * void_fraction_[a][f] * state.velocity[a][f];

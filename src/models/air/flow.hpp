@@ -14,6 +14,8 @@
 /// completed: Eq. 18 does not say how the void fraction is taken at a face (mean of the two cells), what the boundaries
 /// are (FlowBoundary), and how grains move within the step (with constant velocity; time_step() keeps the step short
 /// compared with their response).
+///
+/// Several processes share the rows of cells (Part).
 #pragma once
 
 #include <vector>
@@ -23,9 +25,11 @@
 #include "models/air/convection.hpp"
 #include "models/air/flow_rows.hpp"
 #include "models/air/parameters.hpp"
+#include "models/air/part.hpp"
 #include "models/air/state.hpp"
 #include "models/air/viscosity.hpp"
 #include "numerics/grid/face_apertures.hpp"
+#include "numerics/grid/loops.hpp"
 #include "numerics/grid/poisson.hpp"
 
 namespace talus::air {
@@ -33,15 +37,22 @@ namespace talus::air {
 class AirFlow {
  public:
   /// \param walls, surface closed to the air but for their openings and open patches
+  /// \param ranks that share the cells; outlive the flow
   AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls = {},
-          const Surface& surface = Surface::none());
+          const Surface& surface = Surface::none(), const Ranks& ranks = one_process());
   AirFlow(const AirFlow&) = delete;
   AirFlow& operator=(const AirFlow&) = delete;
 
   /// Replaces the walls after a gate has opened.
   void set_walls(const std::vector<Wall>& walls, const Surface& surface = Surface::none());
 
-  /// Initial momentum from the velocities of the state.
+  /// The rows of this process.
+  const Part& part() const { return part_; }
+
+  // Of several processes, calls together. Each gives the solids where the halo of its part is, the state as the last
+  // step has left it, and gets what is new of its own rows, of the state also of those around them.
+
+  /// Initial momentum from the velocities of the state; of all rows.
   void begin(ThreadTeam& team, const Solids& solids, AirState& state);
 
   /// The longest step allowed by convection, the response of the grains and the parameters, s.
@@ -59,7 +70,7 @@ class AirFlow {
   /// expansion, over the volume of the cell.
   void add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum);
 
-  /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
+  /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver. For one process.
   double max_divergence(const Solids& solids, const AirState& state);
 
   /// The cells from `begin` on in a row along x.
@@ -72,7 +83,7 @@ class AirFlow {
 
  private:
   void set_solids(ThreadTeam& team, const Solids& solids);
-  void check_fractions(ThreadTeam& team, const CellField& fraction) const;
+  void check_fractions(ThreadTeam& team, Slices rows, const CellField& fraction) const;
   void find_solids(const Solids& solids, int axis, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end);
   void measure_drag_of_row(std::ptrdiff_t begin, const CellRow& row);
   Rates rates(std::ptrdiff_t begin, std::ptrdiff_t count, const CellRow& row) const;
@@ -96,8 +107,9 @@ class AirFlow {
   coupling::DragMedium medium_;
   FaceApertures apertures_;
   Convection convection_;
-  Viscosity viscosity_;
   PoissonSolver solver_;
+  Part part_;
+  Viscosity viscosity_;
   bool implicit_ = false;
   int iterations_ = 0;
 

@@ -65,36 +65,38 @@ void AirFlow::finish(ThreadTeam& team, double dt, AirState& state, FaceField& im
                                          Finished(static_cast<std::size_t>(count + 1))};
       return std::vector<std::array<Finished, 2>>(axis == 2 ? static_cast<std::size_t>(grid.count[1]) : 1, pair);
     };
-    for_each_row(team, grid, grid.count, make, [&](auto& kept, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      auto& [low, high] = kept[axis == 2 ? static_cast<std::size_t>(j) : 0];
-      const std::size_t row = grid.row(j, k);
-      const auto put = [&](const Finished& faces) {
-        std::copy_n(faces.velocity.begin(), count, state.velocity[a].data() + faces.begin);
-        std::copy_n(faces.momentum.begin(), count, stream_.mass[a].data() + faces.begin);
-      };
-      const auto average = [&](const Finished& below, const Finished& above, std::ptrdiff_t step) {
-        average_row(end - begin, below.received.data(), above.received.data() + step, impulse[a].data() + begin);
-        average_row(end - begin, below.drag.data(), above.drag.data() + step, state.drag[a].data() + begin);
-      };
-      if (high.begin == begin) std::swap(low, high);
-      finish_faces(low, dt, state, axis, row, begin, count);
-      put(low);
-      if (axis == 0) {
-        if (ring) low.received[static_cast<std::size_t>(n)] = low.received[0];
-        if (ring) low.drag[static_cast<std::size_t>(n)] = low.drag[0];
-        return average(low, low, 1);
-      }
-      const bool is_last = (axis == 1 ? j : k) == n - 1;
-      const std::size_t rows = grid.row_stride(axis);
-      const std::ptrdiff_t stride = grid.stride(axis);
-      if (is_last && ring)
-        finish_faces(high, dt, state, axis, row - rows * static_cast<std::size_t>(n - 1), begin - stride * (n - 1),
-                     count);
-      else
-        finish_faces(high, dt, state, axis, row + rows, begin + stride, count);
-      if (is_last && !ring) put(high);
-      average(low, high, 0);
-    });
+    for_each_row(
+        team, grid, grid.count, part_.own, make,
+        [&](auto& kept, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+          auto& [low, high] = kept[axis == 2 ? static_cast<std::size_t>(j) : 0];
+          const std::size_t row = grid.row(j, k);
+          const auto put = [&](const Finished& faces) {
+            std::copy_n(faces.velocity.begin(), count, state.velocity[a].data() + faces.begin);
+            std::copy_n(faces.momentum.begin(), count, stream_.mass[a].data() + faces.begin);
+          };
+          const auto average = [&](const Finished& below, const Finished& above, std::ptrdiff_t step) {
+            average_row(end - begin, below.received.data(), above.received.data() + step, impulse[a].data() + begin);
+            average_row(end - begin, below.drag.data(), above.drag.data() + step, state.drag[a].data() + begin);
+          };
+          if (high.begin == begin) std::swap(low, high);
+          finish_faces(low, dt, state, axis, row, begin, count);
+          put(low);
+          if (axis == 0) {
+            if (ring) low.received[static_cast<std::size_t>(n)] = low.received[0];
+            if (ring) low.drag[static_cast<std::size_t>(n)] = low.drag[0];
+            return average(low, low, 1);
+          }
+          const bool is_last = (axis == 1 ? j : k) == n - 1;
+          const std::size_t rows = grid.row_stride(axis);
+          const std::ptrdiff_t stride = grid.stride(axis);
+          if (is_last && ring)
+            finish_faces(high, dt, state, axis, row - rows * static_cast<std::size_t>(n - 1), begin - stride * (n - 1),
+                         count);
+          else
+            finish_faces(high, dt, state, axis, row + rows, begin + stride, count);
+          if (is_last && !ring) put(high);
+          average(low, high, 0);
+        });
   }
 }
 

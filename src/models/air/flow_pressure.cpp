@@ -35,12 +35,12 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
   }
 }
 
-/// source_ := the volume flow into every cell, of air and grains or of the air. \returns the largest sum of the sizes
-/// of the flows through the low faces of a cell
+/// source_ := the volume flow into every own cell, of air and grains or of the air. \returns the largest sum of the
+/// sizes of the flows through the low faces of one
 double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity) {
   const Grid& grid = apertures_.grid;
   max_flow_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
+  for_each_row(team, grid, grid.count, part_.own, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
     VolumeFlowRow row{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto from = [&](const FaceField& field) { return field[static_cast<std::size_t>(axis)].data() + begin; };
@@ -57,7 +57,10 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
     max_flow_[static_cast<std::size_t>(k * grid.count[1] + j)] =
         find_source_of_row(grid.count[0], with_grains, row, source_.data() + begin);
   });
-  return *std::max_element(max_flow_.begin(), max_flow_.end());
+  double most = 0;
+  for (std::size_t row = part_.own_slab().begin; row < part_.own_slab().end; ++row)
+    most = std::max(most, max_flow_[row]);
+  return most;
 }
 
 /// What an ideal gas takes in for each Pa, over the time, and adds to the source: the pressure at the start of the step
@@ -65,7 +68,7 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
 void AirFlow::find_storage(ThreadTeam& team, double dt) {
   const Grid& grid = apertures_.grid;
   storage_.resize(source_.size());
-  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t index) {
+  for_each_cell(team, grid, part_.own, [&](int i, int j, int k, std::ptrdiff_t index) {
     const auto c = static_cast<std::size_t>(index);
     const double absolute = parameters_.pressure + start_pressure_[c];
     if (!(absolute > 0)) {
@@ -86,11 +89,12 @@ void AirFlow::find_storage(ThreadTeam& team, double dt) {
 void AirFlow::project(ThreadTeam& team, double dt, AirState& state) {
   for (auto& conductance : conductance_) apertures_.wrap(conductance);
   for (auto& velocity : stream_.velocity) apertures_.wrap(velocity);
-  const double flow = find_source(team, parameters_.continuity == Continuity::mixture, stream_.velocity);
+  const double flow =
+      largest_of(part_.ranks, find_source(team, parameters_.continuity == Continuity::mixture, stream_.velocity));
   double* source = source_.data();
   for (int axis = 0; axis < 3; ++axis) {
     if (!apertures_.boundaries.is_open(axis, 0) && !apertures_.boundaries.is_open(axis, 1)) continue;
-    for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
+    for_each_run(team, apertures_, axis, part_.own, [&](const FaceRun& run) {
       if (!run.is_end) return;
       const auto a = static_cast<std::size_t>(axis);
       const double outside = apertures_.boundaries.pressure[2 * a + (run.index == 0 ? 0 : 1)];
@@ -98,14 +102,15 @@ void AirFlow::project(ThreadTeam& team, double dt, AirState& state) {
     });
   }
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
-  if (stores) find_storage(team, dt);
+  if (stores) together(part_.ranks, [&] { find_storage(team, dt); });
   solver_.set_conductance(team, conductance_, stores ? &storage_ : nullptr);
   // No smaller than what rounding leaves of the flows that the sources are differences of.
   const double rounding = 1e-15 * flow * std::sqrt(static_cast<double>(apertures_.grid.cells()));
   const double ratio = state.last_step > 0 ? dt / state.last_step : 0;
-  for_each_row(team, apertures_.grid, apertures_.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    lead_on_row(end - begin, ratio, state.pressure.data() + begin, state.pressure_before.data() + begin);
-  });
+  for_each_row(team, apertures_.grid, apertures_.grid.count, part_.own,
+               [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                 lead_on_row(end - begin, ratio, state.pressure.data() + begin, state.pressure_before.data() + begin);
+               });
   iterations_ += solver_
                      .solve(team, source_, state.pressure,
                             {.tolerance = parameters_.tolerance,
@@ -119,7 +124,7 @@ void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, Ce
   find_source(team, false, state.velocity);
   const double* pressure = state.pressure.data();
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
-  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_each_row(team, grid, grid.count, part_.own, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto index = begin; index < end; ++index) {
       const auto c = static_cast<std::size_t>(index);
       sum[c] -= source_[c] * dt / grid.volume();
@@ -133,7 +138,7 @@ double AirFlow::max_divergence(const Solids& solids, const AirState& state) {
   const Grid& grid = apertures_.grid;
   set_solids(alone, solids);
   find_source(alone, parameters_.continuity == Continuity::mixture, state.velocity);
-  return max_of_cells(alone, grid,
+  return max_of_cells(alone, grid, part_.own_slab(),
                       [&](std::ptrdiff_t c) { return std::abs(source_[static_cast<std::size_t>(c)]) / grid.volume(); });
 }
 

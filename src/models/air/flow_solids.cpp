@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "models/air/flow.hpp"
@@ -12,10 +13,10 @@
 
 namespace talus::air {
 
-void AirFlow::check_fractions(ThreadTeam& team, const CellField& fractions) const {
+void AirFlow::check_fractions(ThreadTeam& team, Slices rows, const CellField& fractions) const {
   const Grid& grid = apertures_.grid;
   const double* fraction = fractions.data();
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_each_row(team, grid, grid.count, rows, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     if (are_fractions(end - begin, fraction + begin)) return;
     const double* wrong = std::find_if(fraction + begin, fraction + end, [](double s) { return !(s >= 0 && s < 1); });
     const int i = static_cast<int>(wrong - (fraction + begin));
@@ -45,10 +46,10 @@ void AirFlow::find_solids(const Solids& solids, int axis, int j, int k, std::ptr
 }
 
 void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
-  check_fractions(team, solids.fraction);
+  check_fractions(team, part_.all, solids.fraction);
   for (int axis = 0; axis < 3; ++axis) {
     for_each_row(
-        team, apertures_.grid, apertures_.faces(axis),
+        team, apertures_.grid, apertures_.faces(axis), part_.all,
         [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) { find_solids(solids, axis, j, k, begin, end); });
     for (FaceField* field : {&solid_fraction_, &void_fraction_, &grain_velocity_})
       apertures_.wrap((*field)[static_cast<std::size_t>(axis)]);
@@ -79,13 +80,17 @@ Rates AirFlow::rates(std::ptrdiff_t begin, std::ptrdiff_t count, const CellRow& 
 double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState& state) {
   const Grid& grid = apertures_.grid;
   max_of_row_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_each_row(team, grid, grid.count, part_.own, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     const CellRow row = cells_from(begin, solids, state.velocity);
     measure_drag_of_row(begin, row);
     max_of_row_[static_cast<std::size_t>(k * grid.count[1] + j)] = rates(begin, end - begin, row);
   });
   Rates most{0, 0};
-  for (const Rates& row : max_of_row_) most = larger(most, row);
+  for (std::size_t row = part_.own_slab().begin; row < part_.own_slab().end; ++row)
+    most = larger(most, max_of_row_[row]);
+  Votes votes{.least = {}, .largest = {most.crossing, most.response}, .sum = {}};
+  part_.ranks.join(votes);
+  most = {votes.largest[0], votes.largest[1]};
   double dt = parameters_.max_step;
   if (most.crossing > 0) dt = std::min(dt, parameters_.courant / most.crossing);
   if (most.response > 0) dt = std::min(dt, parameters_.response / most.response);
@@ -96,15 +101,22 @@ NumericalError::Report AirFlow::step_limit(const Solids& solids, const AirState&
   const Grid& grid = apertures_.grid;
   double crossing = 0, response = 0;
   std::array<int, 3> crossed{}, held{};
-  for (int k = 0; k < grid.count[2]; ++k)
-    for (int j = 0; j < grid.count[1]; ++j)
-      for (int i = 0; i < grid.count[0]; ++i) {
-        const auto c = static_cast<std::ptrdiff_t>(grid.index(i, j, k));
-        const Rates here = rates(c, 1, cells_from(c, solids, state.velocity));
-        if (here.crossing > crossing) crossing = here.crossing, crossed = {i, j, k};
-        if (here.response > response) response = here.response, held = {i, j, k};
-      }
-  const bool by_motion = parameters_.courant * response < parameters_.response * crossing;
+  for (std::size_t row = part_.own_slab().begin; row < part_.own_slab().end; ++row) {
+    const int j = static_cast<int>(row) % grid.count[1], k = static_cast<int>(row) / grid.count[1];
+    for (int i = 0; i < grid.count[0]; ++i) {
+      const auto c = static_cast<std::ptrdiff_t>(grid.index(i, j, k));
+      const Rates here = rates(c, 1, cells_from(c, solids, state.velocity));
+      if (here.crossing > crossing) crossing = here.crossing, crossed = {i, j, k};
+      if (here.response > response) response = here.response, held = {i, j, k};
+    }
+  }
+  Votes votes{.least = {}, .largest = {crossing, response}, .sum = {}};
+  part_.ranks.join(votes);
+  const bool by_motion = parameters_.courant * votes.largest[1] < parameters_.response * votes.largest[0];
+  const bool is_here = by_motion ? !(crossing < votes.largest[0]) : !(response < votes.largest[1]);
+  Votes first{
+      .least = {is_here ? part_.ranks.rank() : std::numeric_limits<double>::infinity()}, .largest = {}, .sum = {}};
+  part_.ranks.join(first);
   const auto [i, j, k] = by_motion ? crossed : held;
   const Vector3 x = grid.centre(i, j, k);
   NumericalError::Report report{};
@@ -115,7 +127,8 @@ NumericalError::Report AirFlow::step_limit(const Solids& solids, const AirState&
   report.advice = by_motion
                       ? "larger air cells, a larger air.courant"
                       : "larger air cells, a stiffer law of the grains; a box in which grains do not pile up there";
-  return report;
+  return report_of_one(part_.ranks,
+                       first.least[0] < part_.ranks.rank() || !is_here ? NumericalError::Report{} : report);
 }
 
 }  // namespace talus::air

@@ -11,11 +11,11 @@ namespace talus::air {
 
 namespace {
 
-/// Calls body(component, first face, faces, row of the component) for all rows of a component.
+/// Calls body(component, first face, faces, row of the component) for rows of a component.
 template <class Body>
-void for_rows_of(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
+void for_rows_of(ThreadTeam& team, const FaceApertures& apertures, int axis, Slices rows, Body&& body) {
   const std::array<int, 3> faces = apertures.faces(axis);
-  for_each_row(team, apertures.grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_each_row(team, apertures.grid, faces, rows, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     body(static_cast<std::size_t>(axis), begin, static_cast<int>(end - begin),
          static_cast<std::size_t>(k * faces[1] + j));
   });
@@ -23,18 +23,22 @@ void for_rows_of(ThreadTeam& team, const FaceApertures& apertures, int axis, Bod
 
 }  // namespace
 
-Viscosity::Viscosity(const FaceApertures& apertures)
-    : apertures_(apertures), divergence_(apertures.grid.cell_field()) {}
+Viscosity::Viscosity(const FaceApertures& apertures, Part& part)
+    : apertures_(apertures), part_(part), divergence_(apertures.grid.cell_field()) {}
 
 void Viscosity::wrap(FaceField& field) const {
   for (auto& component : field) apertures_.wrap(component);
 }
 
-/// Calls body(component, first face, faces) for all rows.
+void Viscosity::refresh(FaceField& field) {
+  part_.refresh(std::array{&field[0], &field[1], &field[2]});
+}
+
+/// Calls body(component, first face, faces) for the own rows.
 template <class Body>
 void Viscosity::for_all_rows(ThreadTeam& team, Body&& body) const {
   for (int axis = 0; axis < 3; ++axis)
-    for_rows_of(team, apertures_, axis,
+    for_rows_of(team, apertures_, axis, part_.own,
                 [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t) { body(a, f, count); });
 }
 
@@ -43,11 +47,13 @@ template <class Body>
 TwoSums Viscosity::sum_over_rows(ThreadTeam& team, Body&& body) {
   TwoSums total;
   for (int axis = 0; axis < 3; ++axis) {
-    row_sums_.resize(static_cast<std::size_t>(apertures_.faces(axis, 1) * apertures_.faces(axis, 2)));
-    for_rows_of(team, apertures_, axis, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t row) {
-      row_sums_[row] = body(a, f, count);
+    row_sums_.assign(static_cast<std::size_t>(2 * apertures_.faces(axis, 1) * apertures_.faces(axis, 2)), 0);
+    for_rows_of(team, apertures_, axis, part_.own, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t row) {
+      const TwoSums sums = body(a, f, count);
+      row_sums_[2 * row] = sums.first, row_sums_[2 * row + 1] = sums.second;
     });
-    for (const TwoSums& row : row_sums_) total.first += row.first, total.second += row.second;
+    part_.ranks.add_up(row_sums_);
+    for (std::size_t n = 0; n < row_sums_.size(); n += 2) total.first += row_sums_[n], total.second += row_sums_[n + 1];
   }
   return total;
 }
@@ -92,16 +98,17 @@ void Viscosity::find_divergence_of_row(Walls walls, int axis, std::size_t row, s
 
 void Viscosity::find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence) {
   const Grid& grid = apertures_.grid;
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t) {
+  for_each_row(team, grid, grid.count, part_.beside, [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t) {
     find_velocity_divergence_of_row(grid.row(j, k), first, velocity);
   });
   wrap_velocity_divergence();
   for (int axis = 0; axis < 3; ++axis) {
     double* of_axis = divergence[static_cast<std::size_t>(axis)].data();
-    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t end) {
-      find_divergence_of_row(walls, axis, grid.row(j, k), first, static_cast<int>(end - first), velocity,
-                             of_axis + first);
-    });
+    for_each_row(team, grid, apertures_.faces(axis), part_.own,
+                 [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t end) {
+                   find_divergence_of_row(walls, axis, grid.row(j, k), first, static_cast<int>(end - first), velocity,
+                                          of_axis + first);
+                 });
   }
 }
 
@@ -121,6 +128,7 @@ struct Viscosity::System {
     return sums.first;
   }
   double apply_to_direction() {
+    v.refresh(v.direction_);
     v.wrap(v.direction_);
     v.find_divergence(team, Walls::at_rest, v.direction_, v.applied_);
     return v
@@ -186,6 +194,7 @@ int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, cons
                           .term = "viscous term of Eq. 18",
                           .place = "the whole grid",
                           .advice = "a shorter air.max_step"});
+  refresh(velocity);
   return found.iterations;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "models/air/part.hpp"
 #include "models/air/viscosity_rows.hpp"
 #include "numerics/grid/face_apertures.hpp"
 
@@ -13,7 +14,8 @@ namespace talus::air {
 
 class Viscosity {
  public:
-  explicit Viscosity(const FaceApertures& apertures);
+  /// \param part outlives this
+  Viscosity(const FaceApertures& apertures, Part& part);
 
   /// What find_divergence_of_row() needs first: the divergence of the velocity, of which ghosts are filled, in all rows
   /// of cells along x (Grid::row), the first of which is at `begin`; then its ghosts.
@@ -27,6 +29,8 @@ class Viscosity {
   /// Solves (u - start)/weight = amount (laplacian u + grad(div u)/3) for u, from a first guess; conjugate gradients,
   /// preconditioned by the diagonal.
   /// \param weight above 0 where faces are open; \param amount kinematic viscosity times time, m^2
+  /// Together, of several processes: the first guess on Part::midpoint, the others on the own faces; the solution there
+  /// and around.
   /// \returns iterations \throws NumericalError if it does not converge
   int advance_implicitly(ThreadTeam& team, const FaceField& start, const FaceField& weight, double amount,
                          FaceField& velocity);
@@ -43,12 +47,14 @@ class Viscosity {
   template <class Body>
   TwoSums sum_over_rows(ThreadTeam& team, Body&& body);
   void wrap(FaceField& field) const;
+  void refresh(FaceField& field);
 
   const FaceApertures& apertures_;
+  Part& part_;
   CellField divergence_;  // of the velocity
   FaceField residual_, direction_, applied_, per_weight_,
-      per_diagonal_;  // of the implicit step; made when it is asked for
-  std::vector<TwoSums> row_sums_;
+      per_diagonal_;              // of the implicit step; made when it is asked for
+  std::vector<double> row_sums_;  // two of each row
 };
 
 }  // namespace talus::air

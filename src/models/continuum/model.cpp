@@ -37,7 +37,8 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
-std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, std::size_t particles) {
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, const AirTotals& cells,
+                                      std::size_t particles) {
   const double solid_volume = s.mass * static_cast<double>(particles) / p.grains.density;
   const AirAround& air = s.air;
   const RegimeLine reynolds{"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
@@ -46,7 +47,7 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, std::
   if (p.air.gas.motion == air::Motion::frozen) return {reynolds};
   const double swing = air.swing_max / p.air.gas.pressure;
   const bool incompressible = p.air.gas.compressibility == air::Compressibility::none;
-  const double imbalance = totals_of_air(air).imbalance;
+  const double imbalance = cells.imbalance;
   return {{"air's pressure swing", fmt::format("{:.3g}", swing),
            incompressible ? "largest difference from air.pressure since the start, over it; the air is taken for "
                             "incompressible, which holds up to about 0.1: above it, grains that leave a closed vessel "
@@ -96,10 +97,19 @@ void Continuum::gather() {
   Share& share = workspace_->share;
   totals_ = find_totals();
   at_end_ = find_at_end();
+  air_totals_ = find_air_totals();
   share.collect_window(state_.wall_loads);
   account_ = share.account(workspace_->pairs.neighbourhood().pairs());
   whole_.reset();
   part_.reset();
+}
+
+void Continuum::gather_fields() {
+  if (workspace_->air) workspace_->air->gather(state_.air);
+}
+
+AirTotals Continuum::find_air_totals() const {
+  return workspace_->air ? workspace_->air->totals(state_.air) : AirTotals{};
 }
 
 Continuum::Totals Continuum::find_totals() const {
@@ -219,7 +229,7 @@ std::vector<NamedValue> Continuum::totals() const {
   }
   if (setup_->given.air.enabled) {
     const AirAround& air = s.air;
-    const AirTotals cells = totals_of_air(air);
+    const AirTotals cells = ranks_.is_alone() ? find_air_totals() : air_totals_;
     add("impulse_air", air.impulse);
     values.insert(values.end(), {{"air_force_z", "N", air.force.z},
                                  {"air_speed_max", "m/s", cells.max_speed},
@@ -246,7 +256,8 @@ std::optional<GridSnapshot> Continuum::grid() const {
                         .columns = {}};
   std::vector<Vector3> velocity, grains, drag;
   std::vector<double> pressure, fraction;
-  for_each_air_cell(air, [&](std::size_t c, std::size_t) {
+  const RowRange all{0, air.grid.cells() / static_cast<std::size_t>(air.grid.count[0])};
+  for_each_air_cell(air.grid, all, [&](std::size_t c, std::size_t) {
     const double solid = air.solids.fraction[c];
     Vector3 u, v, s;
     for (int axis = 0; axis < 3; ++axis) {
@@ -328,7 +339,9 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   if (setup_->given.collisions.form != granular::Collisions::none)
     lines.push_back(regime_of_collisions(setup_->given.collisions, record));
   if (setup_->given.air.enabled)
-    for (RegimeLine& line : regime_of_air(setup_->given, s, end.particles)) lines.push_back(std::move(line));
+    for (RegimeLine& line :
+         regime_of_air(setup_->given, s, ranks_.is_alone() ? find_air_totals() : air_totals_, end.particles))
+      lines.push_back(std::move(line));
   return lines;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/setup/initial.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
@@ -27,7 +28,8 @@ class Continuum {
   explicit Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks = one_process());
   explicit Continuum(const Parameters& parameters) : Continuum(std::make_shared<const Setup>(parameters)) {}
 
-  /// With several processes: the part of this one; numbers and the air are those of all, once gathered.
+  /// With several processes: the part of this one; numbers are those of all, once gathered, and at the first one the
+  /// air, once gather_fields() has brought it.
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
   /// Where the particles are, its gates as they are now. \pre begun or resumed
@@ -48,6 +50,8 @@ class Continuum {
 
   /// Together: totals, regime and loads of walls are of all particles from here on, until the next step.
   void gather();
+  /// Together: the first process has the air of all, until the next step.
+  void gather_fields();
   /// At the first process. \param announce has the others call send() with the same piece
   void lead(std::function<void(const ColumnPiece&)> announce) { announce_ = std::move(announce); }
   void send(const ColumnPiece& piece) const { workspace_->share.read(state_, piece, nullptr); }
@@ -105,6 +109,7 @@ class Continuum {
   };
   Totals find_totals() const;
   AtEnd find_at_end() const;
+  AirTotals find_air_totals() const;
   void make_workspace();
   Snapshot part() const;  // of a sector; of several processes all particles
   /// From when on the packing is that of a bed that has settled, or fallen by a spacing: beside walls and about a
@@ -116,6 +121,7 @@ class Continuum {
   State state_;
   Totals totals_;  // as gathered
   AtEnd at_end_;
+  AirTotals air_totals_;
   std::function<void(const ColumnPiece&)> announce_;
   std::string account_;
   std::unique_ptr<Workspace> workspace_;          // made by begin or resume

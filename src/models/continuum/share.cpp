@@ -317,9 +317,7 @@ double Share::place_of(std::optional<std::size_t> here) const {
 
 NumericalError::Report Share::told_by(double first, std::optional<std::size_t> here,
                                       const std::function<NumericalError::Report(std::size_t)>& report) const {
-  NumericalError::Report told = here && place_of(here) == first ? report(*here) : NumericalError::Report{};
-  for (std::string* const text : {&told.what, &told.term, &told.place, &told.advice}) *text = ranks_.gather(*text);
-  return told;
+  return report_of_one(ranks_, here && place_of(here) == first ? report(*here) : NumericalError::Report{});
 }
 
 NumericalError::Report Share::report_of_first(std::optional<std::size_t> here,
@@ -367,8 +365,8 @@ std::string Share::account(std::size_t pairs) const {
   const auto percent = [&](std::size_t n) { return 1e-4 * sum(n) / size; };
   return fmt::format(
       "{} processes: each owned {:.1f} to {:.1f} % of the particles, copies of others are {:.1f} % of them (of one "
-      "{:.1f} %), {} changed their process; of a step messages take {:.1f} %, migration and halos {:.1f} %, air that "
-      "all compute {:.1f} %; the longest lists are {:.2f} of the mean",
+      "{:.1f} %), {} changed their process; of a step messages take {:.1f} %, migration and halos {:.1f} %, the "
+      "air {:.1f} %; the longest lists are {:.2f} of the mean",
       size, 100 * static_cast<double>(std::min(least_owned_, most_owned_)) / count,
       100 * static_cast<double>(most_owned_) / count, 100 * sum(0) / count, 100 * votes.largest[0], votes.sum[2],
       percent(3), percent(4), percent(5), votes.largest[1] * size / std::max(1.0, sum(1)));

@@ -10,9 +10,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "ranks/halo.hpp"
+#include "ranks/slabs.hpp"
 
 namespace talus {
 
@@ -44,15 +48,32 @@ class Checkerboard {
     return run(colour, row(j, k)) + static_cast<std::size_t>(i / 2);
   }
 
-  /// Calls body(task, first row, end row) for blocks of rows of fixed size.
+  /// The row of a place in an array; rows() outside the grid.
+  std::size_t row_at(std::size_t index) const { return index / stride_ % (rows_ + 1); }
+
+  /// Calls body(block, first row, end row) for the rows of slabs in blocks of fixed size.
   template <class Body>
-  void for_each_block(ThreadTeam& team, Body&& body) const {
-    team.run(blocks(), [&](std::size_t block) {
-      const std::size_t begin = block * block_, end = begin + block_;
-      body(block, begin, end < rows_ ? end : rows_);
-    });
+  void for_each_block(ThreadTeam& team, std::span<const RowRange> slabs, Body&& body) const {
+    talus::for_each_block(team, slabs, block_, body);
   }
   std::size_t blocks() const { return (rows_ + block_ - 1) / block_; }
+
+  // Several processes.
+
+  /// How far the neighbours of a row are at most, in rows.
+  std::size_t reach() const { return static_cast<std::size_t>(count_[1]); }
+  /// Whole blocks for each process, the last plane of rows not parted.
+  Slabs dealt(const Ranks& ranks) const;
+  /// Slabs of this board, whose cells join those of a finer one, near the slabs of that. \param factor cells joined
+  /// along z
+  Slabs dealt_as(const Ranks& ranks, const Checkerboard& fine, const Slabs& of_fine, int factor) const;
+  /// A column in the order of the board as columns of rows, for a halo.
+  template <class Number>
+  std::array<Halo::Column, 2> columns(std::vector<Number>& column) const {
+    const std::size_t words = stride_ * sizeof(Number) / 8;  // a row of a colour is a whole number of 16 bytes
+    auto* const data = reinterpret_cast<std::byte*>(column.data());
+    return {Halo::Column{data, words}, Halo::Column{data + (rows_ + 1) * stride_ * sizeof(Number), words}};
+  }
 
   /// Fills the ghosts at both ends of a run if x is periodic.
   template <class Number>
@@ -96,6 +117,26 @@ inline Checkerboard::Checkerboard(std::array<int, 3> count, std::array<bool, 3> 
       around_[row(j, k)] = {neighbour(1, j, k, -1), neighbour(1, j, k, 1), neighbour(2, j, k, -1),
                             neighbour(2, j, k, 1)};
     }
+}
+
+inline Slabs Checkerboard::dealt(const Ranks& ranks) const {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::vector<std::size_t> border;
+  for (std::size_t r = 0; r <= size; ++r) {
+    const std::size_t row = block_ * (blocks() * r / size);
+    border.push_back(r == size || row + reach() > rows_ ? rows_ : row);
+  }
+  return {ranks, std::move(border), is_periodic(2)};
+}
+
+inline Slabs Checkerboard::dealt_as(const Ranks& ranks, const Checkerboard& fine, const Slabs& of_fine,
+                                    int factor) const {
+  const std::size_t planes = fine.reach() * static_cast<std::size_t>(factor);  // of the fine board, in rows
+  std::vector<std::size_t> border;
+  for (const std::size_t row : of_fine.border())
+    border.push_back(std::min(rows_, reach() * ((row + planes / 2) / planes)));
+  border.back() = rows_;
+  return {ranks, std::move(border), is_periodic(2)};
 }
 
 }  // namespace talus

@@ -6,54 +6,70 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "base/parallel.hpp"
 #include "numerics/grid/face_apertures.hpp"
+#include "ranks/slabs.hpp"
 
 namespace talus {
 
-/// Calls body(what make() returns, j, k, begin, end) with the indices of each row of a block of so many positions from
-/// the first cell on; what is made serves one row after another, along y, then z.
+/// Rows of cells of a grid, (j, k) in the order j + count[1] k. A row of faces goes with the cells above it; at the
+/// high end of y with those within, at that of z with the last row.
+using Slices = std::span<const RowRange>;
+
+/// Calls body(what make() returns, j, k, begin, end) with the indices of each row of slices of a block of so many
+/// positions from the first cell on; what is made serves one row after another, along y, then z.
+/// \param count of cells, or of the faces of an axis
 template <class Make, class Body>
-void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Make&& make, Body&& body) {
-  constexpr int rows_at_once = 16;
-  const int rows = count[1] * count[2];
-  team.run(static_cast<std::size_t>((rows + rows_at_once - 1) / rows_at_once), [&](std::size_t block) {
-    const int begin = static_cast<int>(block) * rows_at_once;
-    auto made = make();
-    for (int row = begin; row < std::min(begin + rows_at_once, rows); ++row) {
-      const int j = row % count[1], k = row / count[1];
-      const auto first = static_cast<std::ptrdiff_t>(grid.index(0, j, k));
-      body(made, j, k, first, first + count[0]);
-    }
-  });
+void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Slices slices, Make&& make,
+                  Body&& body) {
+  constexpr std::size_t rows_at_once = 16;
+  const auto rows_of_plane = static_cast<std::size_t>(count[1]),
+             cells_of_plane = static_cast<std::size_t>(grid.count[1]);
+  const auto border = [&](std::size_t row) {
+    return row == cells_of_plane * static_cast<std::size_t>(grid.count[2])
+               ? rows_of_plane * static_cast<std::size_t>(count[2])
+               : row % cells_of_plane + rows_of_plane * (row / cells_of_plane);
+  };
+  for (const RowRange& slice : slices) {
+    const RowRange rows{border(slice.begin), border(slice.end)};
+    for_each_block(team, std::span(&rows, 1), rows_at_once, [&](std::size_t, std::size_t first, std::size_t last) {
+      auto made = make();
+      for (std::size_t row = first; row < last; ++row) {
+        const int j = static_cast<int>(row) % count[1], k = static_cast<int>(row) / count[1];
+        const auto begin = static_cast<std::ptrdiff_t>(grid.index(0, j, k));
+        body(made, j, k, begin, begin + count[0]);
+      }
+    });
+  }
 }
 
 /// Calls body(j, k, begin, end).
 template <class Body>
-void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Body&& body) {
+void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Slices slices, Body&& body) {
   const auto nothing = [] { return 0; };
-  for_each_row(team, grid, count, nothing,
+  for_each_row(team, grid, count, slices, nothing,
                [&](int, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) { body(j, k, begin, end); });
 }
 
 /// Calls body(i, j, k, index) for the cells.
 template <class Body>
-void for_each_cell(ThreadTeam& team, const Grid& grid, Body&& body) {
-  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+void for_each_cell(ThreadTeam& team, const Grid& grid, Slices slices, Body&& body) {
+  for_each_row(team, grid, grid.count, slices, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto c = begin; c < end; ++c) body(static_cast<int>(c - begin), j, k, c);
   });
 }
 
-/// Largest value(index) over the cells, at least 0.
+/// Largest value(index) over the cells of a slab, at least 0.
 template <class Value>
-double max_of_cells(ThreadTeam& team, const Grid& grid, Value&& value) {
-  const int ny = grid.count[1], rows = ny * grid.count[2];
+double max_of_cells(ThreadTeam& team, const Grid& grid, const RowRange& slab, Value&& value) {
+  const int ny = grid.count[1];
   return reduce(
-      team, static_cast<std::size_t>(rows), 0.0,
-      [&](std::size_t row) {
-        const auto begin =
-            static_cast<std::ptrdiff_t>(grid.index(0, static_cast<int>(row) % ny, static_cast<int>(row) / ny));
+      team, slab.size(), 0.0,
+      [&](std::size_t n) {
+        const int row = static_cast<int>(slab.begin + n);
+        const auto begin = static_cast<std::ptrdiff_t>(grid.index(0, row % ny, row / ny));
         double most = 0;
         for (auto c = begin; c < begin + grid.count[0]; ++c) most = std::max(most, value(c));
         return most;
@@ -87,21 +103,22 @@ void for_each_run_of_row(const FaceApertures& apertures, int axis, int j, int k,
   run(begin + n, end, n);
 }
 
-/// Calls body(run) for all faces of an axis.
+/// Calls body(run) for the faces of an axis.
 template <class Body>
-void for_each_run(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
-  for_each_row(team, apertures.grid, apertures.faces(axis),
+void for_each_run(ThreadTeam& team, const FaceApertures& apertures, int axis, Slices slices, Body&& body) {
+  for_each_row(team, apertures.grid, apertures.faces(axis), slices,
                [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
                  for_each_run_of_row(apertures, axis, j, k, begin, end, body);
                });
 }
 
-/// Calls body(index) for all faces of an axis.
+/// Calls body(index) for the faces of an axis.
 template <class Body>
-void for_each_face(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
-  for_each_row(team, apertures.grid, apertures.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto f = begin; f < end; ++f) body(f);
-  });
+void for_each_face(ThreadTeam& team, const FaceApertures& apertures, int axis, Slices slices, Body&& body) {
+  for_each_row(team, apertures.grid, apertures.faces(axis), slices,
+               [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                 for (auto f = begin; f < end; ++f) body(f);
+               });
 }
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "numerics/grid/joined_rows.hpp"
 #include "numerics/grid/run_loops.hpp"
 
 namespace talus {
@@ -43,17 +44,6 @@ void for_each_joined(const Checkerboard& board, int factor, int colour, std::siz
     for (int m = 0; m < length; ++m) body(m, 2 * m + first);
 }
 
-/// Calls body(fine row, whether it is the lowest along y, along z) for the fine rows of a coarse row.
-template <class Body>
-void for_each_joined_row(const Checkerboard& fine, const Checkerboard& coarse, const std::array<int, 3>& factor,
-                         std::size_t coarse_row, Body&& body) {
-  const int J = static_cast<int>(coarse_row) % coarse.count()[1], K = static_cast<int>(coarse_row) / coarse.count()[1];
-  const int j_end = std::min((J + 1) * factor[1], fine.count()[1]),
-            k_end = std::min((K + 1) * factor[2], fine.count()[2]);
-  for (int k = K * factor[2]; k < k_end; ++k)
-    for (int j = J * factor[1]; j < j_end; ++j) body(fine.row(j, k), j == J * factor[1], k == K * factor[2]);
-}
-
 /// run[I] += the sums of joined cells.
 void add_joined(const Checkerboard& fine, int factor, int colour, std::size_t r, const float* run, float* row) {
   if (factor == 2) return run_loops::add(fine.length(colour, r), run, row);
@@ -76,18 +66,26 @@ void take_row(const Checkerboard& board, std::size_t r, const float* row, float*
 }  // namespace
 
 Multigrid::Level::Level(const Checkerboard& checkerboard, std::array<std::vector<float>, 3> extents)
-    : board(checkerboard), extent(std::move(extents)), matrix(board.size()) {
+    : board(checkerboard), extent(std::move(extents)), matrix(board.size()), slabs(board.rows()) {
   for (int a = 0; a < 3; ++a) factor[static_cast<std::size_t>(a)] = coarsening(board, a);
   for (auto* column : {&inverse, &value, &source}) column->assign(board.size(), 0);
 }
 
-void Multigrid::Level::complete(ThreadTeam& team) {
-  board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+void Multigrid::Level::send_matrix() {
+  std::vector<Halo::Column> columns;
+  for (auto* column : {&matrix.low[0], &matrix.low[1], &matrix.low[2], &matrix.outside})
+    for (const Halo::Column& of_colour : board.columns(*column)) columns.push_back(of_colour);
+  known.refresh(columns);
+}
+
+/// \param relaxed where the diagonal is needed
+void Multigrid::Level::complete(ThreadTeam& team, Slices known_rows, Slices relaxed) {
+  board.for_each_block(team, known_rows, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = begin; r < end; ++r)
         for (auto& low : matrix.low) board.fill_ghosts(low.data() + board.run(colour, r), board.length(colour, r));
   });
-  board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+  board.for_each_block(team, relaxed, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::size_t own = board.run(colour, r);
@@ -102,8 +100,8 @@ void Multigrid::Level::complete(ThreadTeam& team) {
 }
 
 /// Gauss-Seidel on the cells of one colour. \param from_zero the other colour is zero
-void Multigrid::Level::smooth(ThreadTeam& team, int colour, bool from_zero) {
-  board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+void Multigrid::Level::smooth(ThreadTeam& team, int colour, Slices of_rows, bool from_zero) {
+  board.for_each_block(team, of_rows, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       const std::size_t own = board.run(colour, r);
       const int length = board.length(colour, r);
@@ -118,10 +116,11 @@ void Multigrid::Level::smooth(ThreadTeam& team, int colour, bool from_zero) {
   });
 }
 
-Multigrid::Multigrid(const Checkerboard& finest) {
+Multigrid::Multigrid(const Checkerboard& finest, const Slabs& slabs, const Ranks& ranks, std::size_t least_cells) {
   std::array<std::vector<float>, 3> extent;
   for (std::size_t a = 0; a < 3; ++a) extent[a].assign(static_cast<std::size_t>(finest.count()[a]), 1.0f);
   levels_.emplace_back(finest, extent);
+  levels_.front().slabs = slabs;
   while (levels_.back().factor != std::array{1, 1, 1}) {
     const Level& fine = levels_.back();
     std::array<int, 3> count;
@@ -134,32 +133,44 @@ Multigrid::Multigrid(const Checkerboard& finest) {
       count[a] = static_cast<int>(extent[a].size());
       periodic[a] = fine.board.is_periodic(static_cast<int>(a)) && count[a] > 1;
     }
-    levels_.emplace_back(Checkerboard(count, periodic), extent);
+    const bool was_shared = fine.is_shared;
+    Level coarse(Checkerboard(count, periodic), extent);
+    coarse.is_shared =
+        was_shared && coarse.factor != std::array{1, 1, 1} && coarse.board.rows() * extent[0].size() >= least_cells;
+    if (was_shared) coarse.slabs = coarse.board.dealt_as(ranks, fine.board, fine.slabs, fine.factor[2]);
+    levels_.push_back(std::move(coarse));
   }
 }
 
 void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale, bool walls_changed) {
-  Level& top = levels_.front();
-  const Checkerboard& board = top.board;
-  board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (int colour = 0; colour < 2; ++colour) {
-      const std::size_t first = board.run(colour, begin) - 1, length = board.run(colour, end) - 1 - first;
-      for (std::size_t a = 0; a < 3; ++a)
-        run_loops::scale(length, scale, finest.low[a].data() + first, top.matrix.low[a].data() + first);
-      run_loops::scale(length, scale, finest.outside.data() + first, top.matrix.outside.data() + first);
-    }
-  });
-  top.complete(team);
-  for (std::size_t l = 1; l < levels_.size(); ++l) {
-    Level &fine = levels_[l - 1], &coarse = levels_[l];
-    if (walls_changed) fine.aggregates = find_aggregates(fine.board, fine.low(), coarse.board, fine.factor);
-    coarsen(team, fine, coarse);
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const std::vector<RowRange> all{level.all()};
+    const auto rows = [&](const std::vector<RowRange>& own) -> Slices { return walls_changed ? all : own; };
+    if (l > 0)
+      coarsen(team, levels_[l - 1], level, rows(level.rows.restricted));
+    else
+      level.board.for_each_block(
+          team, rows(level.rows.restricted), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (int colour = 0; colour < 2; ++colour) {
+              const std::size_t first = level.board.run(colour, begin) - 1,
+                                length = level.board.run(colour, end) - 1 - first;
+              for (std::size_t a = 0; a < 3; ++a)
+                run_loops::scale(length, scale, finest.low[a].data() + first, level.matrix.low[a].data() + first);
+              run_loops::scale(length, scale, finest.outside.data() + first, level.matrix.outside.data() + first);
+            }
+          });
+    if (!walls_changed) level.send_matrix();
+    level.complete(team, rows(level.rows.known), rows(level.rows.first_red));
+    if (walls_changed && l + 1 < levels_.size())
+      level.aggregates = find_aggregates(level.board, level.low(), levels_[l + 1].board, level.factor);
   }
+  if (walls_changed) plan();
 }
 
 /// The conductances of joined faces add up; the way between the centres is longer, also that to the outside.
-void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
-  coarse.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse, Slices rows) {
+  coarse.board.for_each_block(team, rows, [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t nx = coarse.extent[0].size();
     std::array<std::vector<float>, 4> sum;
     for (std::size_t r = begin; r < end; ++r) {
@@ -191,7 +202,6 @@ void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
       if (!fine.aggregates.empty()) join_faces_beside_walls(fine, coarse, r);
     }
   });
-  coarse.complete(team);
 }
 
 /// Sets the conductances of the coarse cells of a row that are not joined in pairs.
@@ -214,7 +224,7 @@ void Multigrid::join_faces_beside_walls(const Level& fine, Level& coarse, std::s
 /// After one sweep from zero only red cells have a residual left: what flows to them from black ones, which were zero
 /// when the red ones were relaxed.
 void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& coarse) {
-  coarse.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+  coarse.board.for_each_block(team, coarse.rows.restricted, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<float> sum(coarse.extent[0].size()), inflow(fine.extent[0].size());
     for (std::size_t r = begin; r < end; ++r) {
       std::fill(sum.begin(), sum.end(), 0.0f);
@@ -240,12 +250,11 @@ void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& co
 
 /// To the red cells: the sweep that follows begins with the black ones, from the red.
 void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fine) {
-  fine.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+  fine.board.for_each_block(team, fine.rows.corrected, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<float> correction(coarse.extent[0].size());
     std::size_t held = coarse.board.rows();
     for (std::size_t r = begin; r < end; ++r) {
-      const int j = static_cast<int>(r) % fine.board.count()[1], k = static_cast<int>(r) / fine.board.count()[1];
-      const std::size_t from = coarse.board.row(j / fine.factor[1], k / fine.factor[2]);
+      const std::size_t from = joining_row(fine.board, coarse.board, fine.factor, r);
       for (int colour = 0; colour < 2 && from != held; ++colour)
         run_loops::put(coarse.board.length(colour, from), coarse.value.data() + coarse.board.run(colour, from),
                        correction.data() + coarse.board.first(colour, from));
@@ -268,17 +277,23 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
 
 void Multigrid::cycle(ThreadTeam& team, std::size_t l) {
   Level& level = levels_[l];
-  level.smooth(team, 0, true);
-  level.smooth(team, 1);
+  level.known.refresh(level.board.columns(level.source));
+  level.smooth(team, 0, level.rows.first_red, true);
+  level.smooth(team, 1, level.rows.first_black);
   if (l + 1 == levels_.size()) {
-    for (int n = 1; n < coarsest_sweeps; ++n) level.smooth(team, 0), level.smooth(team, 1);
+    for (int n = 1; n < coarsest_sweeps; ++n) {
+      level.values.refresh(level.board.columns(level.value));
+      level.smooth(team, 0, level.rows.corrected), level.smooth(team, 1, level.rows.last_black);
+    }
   } else {
-    restrict_residual(team, level, levels_[l + 1]);
+    Level& coarse = levels_[l + 1];
+    restrict_residual(team, level, coarse);
     cycle(team, l + 1);
-    add_correction(team, levels_[l + 1], level);
-    level.smooth(team, 1);
+    coarse.values.refresh(coarse.board.columns(coarse.value));
+    add_correction(team, coarse, level);
+    level.smooth(team, 1, level.rows.last_black);
   }
-  level.smooth(team, 0);
+  level.smooth(team, 0, level.rows.last_red);
 }
 
 }  // namespace talus

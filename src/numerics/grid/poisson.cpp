@@ -35,52 +35,63 @@ constexpr int max_iterations_of_floats = 50;
 
 }  // namespace
 
-PoissonSolver::PoissonSolver(const Grid& grid, std::array<bool, 3> periodic)
+PoissonSolver::PoissonSolver(const Grid& grid, std::array<bool, 3> periodic, const Ranks& ranks,
+                             std::size_t least_cells)
     : grid_(grid),
       to_itself_{periodic[0] && grid.count[0] == 1, periodic[1] && grid.count[1] == 1,
                  periodic[2] && grid.count[2] == 1},
+      ranks_(ranks),
       board_(board_of(grid, periodic)),
+      slabs_(board_.dealt(ranks)),
+      own_{slabs_.own()},
       matrix_(board_.size()),
-      multigrid_(board_) {
+      multigrid_(board_, slabs_, ranks, least_cells) {
   for (auto* column : {&source_, &value_, &residual_}) column->assign(board_.size(), 0);
   for (auto* column : {&direction_, &applied_, &change_}) column->assign(board_.size(), 0);
+  const Slabs::Reach none;
+  around_ = slabs_.around(own_[0].size() > 0 ? none.more(board_.reach()) : none);
+  neighbours_ = slabs_.halo(around_);
 }
 
-/// Calls body(block, begin, end) for ranges in the board's order, pads among them.
+/// Brings a column's values on the rows of neighbours, and, if x is periodic, the ghosts of the own rows.
+void PoissonSolver::refresh(std::vector<double>& column) {
+  if (board_.is_periodic(0))
+    for (int colour = 0; colour < 2; ++colour)
+      for (std::size_t r = own_[0].begin; r < own_[0].end; ++r)
+        board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
+  neighbours_.refresh(board_.columns(column));
+}
+
+/// Brings columns' values on all rows: rare, so that the way to them is not kept.
+void PoissonSolver::gather(std::span<std::vector<double>* const> columns) const {
+  Halo all = slabs_.halo(std::vector<RowRange>{{0, board_.rows()}});
+  for (std::vector<double>* const column : columns) all.refresh(board_.columns(*column));
+}
+
+/// Calls body(block, begin, end) for own ranges in the board's order, pads among them.
 template <class Body>
 void PoissonSolver::for_each_range(ThreadTeam& team, Body&& body) const {
-  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
+  board_.for_each_block(team, own_, [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour) body(block, board_.run(colour, begin) - 1, board_.run(colour, end) - 1);
   });
 }
 
-/// Sum of term(begin, length) over ranges: within a block of rows in order, over blocks exact and of no order.
+/// Sum of term(begin, length) over ranges: within a block of rows in order.
 template <class Term>
 double PoissonSolver::sum(ThreadTeam& team, Term&& term) {
-  partial_.assign(board_.blocks(), 0);
-  for_each_range(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
-    partial_[block] += term(begin, end - begin);
+  return sum_of_blocks(team, [&](std::size_t begin, std::size_t end, double& sum) {
+    for (int colour = 0; colour < 2; ++colour) {
+      const std::size_t first = board_.run(colour, begin) - 1;
+      sum += term(first, board_.run(colour, end) - 1 - first);
+    }
   });
-  return exact_sum(partial_);
 }
 
-/// The same of body(colour, row, first cell of the run, length) over runs.
-template <class Body>
-double PoissonSolver::sum_over_runs(ThreadTeam& team, Body&& body) {
-  partial_.assign(board_.blocks(), 0);
-  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
-    for (int colour = 0; colour < 2; ++colour)
-      for (std::size_t r = begin; r < end; ++r)
-        partial_[block] += body(colour, r, board_.run(colour, r), board_.length(colour, r));
-  });
-  return exact_sum(partial_);
-}
-
-/// Calls body(block, first cell of the run, length, first cell in the grid's order, row) for all runs; the cells of a
+/// Calls body(block, first cell of the run, length, first cell in the grid's order, row) for own runs; the cells of a
 /// run are every second one of a row along x.
 template <class Body>
 void PoissonSolver::for_each_run(ThreadTeam& team, Body&& body) const {
-  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
+  board_.for_each_block(team, own_, [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       const int j = static_cast<int>(r) % grid_.count[1], k = static_cast<int>(r) / grid_.count[1];
       for (int colour = 0; colour < 2; ++colour)
@@ -92,9 +103,10 @@ void PoissonSolver::for_each_run(ThreadTeam& team, Body&& body) const {
 
 void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   std::vector<unsigned char> changed(board_.blocks(), 0);
-  outside_before_ = matrix_.outside;
+  if (outside_before_.empty()) outside_before_.assign(board_.size(), 0);
   for_each_run(team, [&](std::size_t block, std::size_t own, int length, std::size_t from, std::array<int, 3> cell) {
     double* outside = matrix_.outside.data() + own;
+    std::copy_n(outside, length, outside_before_.data() + own);
     if (storage)
       run_loops::take(length, storage->data() + from, outside);
     else
@@ -125,8 +137,12 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
     for (int m = 0; m < length; ++m)
       if ((outside[m] > 0) != (outside_before_[own + static_cast<std::size_t>(m)] > 0)) changed[block] = 1;
   });
+  std::array<Halo::Column, 4> low;
+  for (std::size_t a : {0, 1})
+    for (std::size_t colour : {0, 1}) low[2 * a + colour] = board_.columns(matrix_.low[a + 1])[colour];
+  neighbours_.refresh(low);
   std::vector<double> largest(board_.blocks(), 0);
-  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
+  board_.for_each_block(team, own_, [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = begin; r < end; ++r) {
         const std::size_t own = board_.run(colour, r);
@@ -136,20 +152,23 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
                                                            matrix_.diagonal.data() + own));
       }
   });
-  const double top = *std::max_element(largest.begin(), largest.end());
+  Votes votes{.least = {}, .largest = {*std::max_element(largest.begin(), largest.end())}, .sum = {}};
+  votes.sum.push_back(static_cast<std::uint64_t>(std::count(changed.begin(), changed.end(), 1)));
+  ranks_.join(votes);
+  const double top = votes.largest[0];
   scale_ = top > 0 ? 1 / top : 1;
-  const bool walls_changed = is_new_ || std::count(changed.begin(), changed.end(), 1) > 0;
-  if (walls_changed) find_closed_regions();
+  const bool walls_changed = is_new_ || votes.sum[0] > 0;
+  if (walls_changed) {
+    gather(std::array{&matrix_.low[0], &matrix_.low[1], &matrix_.low[2], &matrix_.outside});
+    find_closed_regions();
+  }
   is_new_ = false;
   multigrid_.set_matrix(team, matrix_, scale_, walls_changed);
 }
 
 /// residual_ := source_ - matrix value_; \returns its square
 double PoissonSolver::find_residual(ThreadTeam& team) {
-  if (board_.is_periodic(0))
-    for (int colour = 0; colour < 2; ++colour)
-      for (std::size_t r = 0; r < board_.rows(); ++r)
-        board_.fill_ghosts(value_.data() + board_.run(colour, r), board_.length(colour, r));
+  refresh(value_);
   return sum_over_runs(team, [&](int colour, std::size_t r, std::size_t own, int length) {
     const Runs<double> runs(board_, pointers(matrix_.low), value_.data(), colour, r);
     return run_loops::find_residual(length, runs, matrix_.diagonal.data() + own, value_.data() + own,
@@ -195,9 +214,12 @@ struct PoissonSolver::MultigridCycle {
     });
   }
   void update_direction(double beta) {
-    s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      run_loops::update_direction(end - begin, static_cast<float>(beta), s.multigrid_.correction().data() + begin,
-                                  s.direction_.data() + begin);
+    s.board_.for_each_block(team, s.around_, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (int colour = 0; colour < 2; ++colour) {
+        const std::size_t first = s.board_.run(colour, begin) - 1, last = s.board_.run(colour, end) - 1;
+        run_loops::update_direction(last - first, static_cast<float>(beta), s.multigrid_.correction().data() + first,
+                                    s.direction_.data() + first);
+      }
     });
   }
 };
@@ -206,18 +228,23 @@ struct PoissonSolver::MultigridCycle {
 void PoissonSolver::remove_constants(std::vector<float>& column) const {
   remove_means(column);
   if (!board_.is_periodic(0)) return;
-  for (int colour = 0; colour < 2; ++colour)
-    for (std::size_t r = 0; r < board_.rows(); ++r)
-      board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
+  for (const RowRange& rows : around_)
+    for (int colour = 0; colour < 2; ++colour)
+      for (std::size_t r = rows.begin; r < rows.end; ++r)
+        board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
 }
 
 /// Adds to value_ what it lacks for the residual, of size `norm`, to fall to `enough`, or as far as single precision
 /// reaches. \returns iterations
 int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int max_iterations) {
   remove_means(residual_);
+  board_.for_each_block(team, around_, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (int colour = 0; colour < 2; ++colour)
+      std::fill(direction_.data() + board_.run(colour, begin) - 1, direction_.data() + board_.run(colour, end) - 1,
+                0.0f);
+  });
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);
-    std::fill(direction_.data() + begin, direction_.data() + end, 0.0f);
     std::fill(change_.data() + begin, change_.data() + end, 0.0f);
   });
   System system{*this, team, 1};

@@ -13,12 +13,7 @@ struct PoissonSolver::SystemOfDoubles {
   /// Sum of term(colour, row) over all runs, as PoissonSolver::sum; pads count nothing.
   template <class Term>
   double sum(Term&& term) {
-    s.partial_.assign(s.board_.blocks(), 0);
-    s.board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
-      for (int colour = 0; colour < 2; ++colour)
-        for (std::size_t r = begin; r < end; ++r) s.partial_[block] += term(colour, r);
-    });
-    return exact_sum(s.partial_);
+    return s.sum_over_runs(team, [&](int colour, std::size_t r, std::size_t, int) { return term(colour, r); });
   }
   double product(const std::vector<double>& a, const auto& b) {
     return sum([&](int colour, std::size_t r) {
@@ -31,6 +26,7 @@ struct PoissonSolver::SystemOfDoubles {
 
   double residual_square() { return product(s.residual_, s.residual_); }
   double apply_to_direction() {
+    s.neighbours_.refresh(s.board_.columns(s.direction_of_doubles_));
     const std::array<const double*, 3> low{s.matrix_.low[0].data(), s.matrix_.low[1].data(), s.matrix_.low[2].data()};
     return sum([&](int colour, std::size_t r) {
       const Runs<double> runs(s.board_, low, s.direction_of_doubles_.data(), colour, r);

@@ -249,6 +249,14 @@ void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const 
   });
 }
 
+std::array<std::size_t, 2> Deposition::rows() const {
+  std::array<std::size_t, 2> range{grid_.size(), 0};
+  for (const Block& block : blocks_)
+    for (std::size_t r = 0; r < block.rows; ++r)
+      range = {std::min<std::size_t>(range[0], block.first[r]), std::max<std::size_t>(range[1], block.first[r])};
+  return range;
+}
+
 void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
                             std::span<Vector3> received) const {
   const CellField &x = per_solid_volume[0], &y = per_solid_volume[1], &z = per_solid_volume[2];

@@ -43,6 +43,10 @@ class Deposition {
   void deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
                FaceField& flux) const;
 
+  /// The first cells of the first and of the last row in which particles have weights, in the grid's order; of none the
+  /// first is the larger one.
+  std::array<std::size_t, 2> rows() const;
+
   /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over particles this is the
   /// cells' volume times `deposit`'s fraction times `per_solid_volume`.
   void distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,

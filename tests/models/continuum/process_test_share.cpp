@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "models/continuum/columns.hpp"
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/level_cases.hpp"
+#include "models/continuum/vessel_parts.hpp"
 #include "ranks/petsc/processes.hpp"
 
 namespace talus::continuum {
@@ -94,6 +96,7 @@ std::map<std::int64_t, std::size_t> numbers_of(const State& s) {
 void expect_same_state(const Started& alone, Started& part) {
   Share& share = part.workspace.share;
   share.collect_window(part.state.wall_loads);
+  if (part.workspace.air) part.workspace.air->gather(part.state.air);
   State whole = part.state;
   const std::size_t count = share.of_all(0);
   resize_columns(whole, count);
@@ -212,6 +215,28 @@ TEST(Share, AirThatEveryProcessHas) {
   p.box.left = p.box.right = FaceKind::periodic;
   p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
   expect_same_bits(p, 30, Shuffled(processes()), true);
+}
+
+TEST(Share, AirWhoseCellsAreShared) {
+  Parameters p = falling_block();
+  p.air.enabled = true;
+  p.air.cell = spacing / 3;
+  ASSERT_TRUE(is_air_shared(air_grid(p)));
+  expect_same_bits(p, 12, processes(), false);
+  p.box.left = p.box.right = FaceKind::periodic;
+  p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
+  expect_same_bits(p, 8, Shuffled(processes()), false);
+}
+
+/// The gate opens on the way: the air meets other walls.
+TEST(Share, SharedAirInAVessel) {
+  Parameters p = shut_silo();
+  p.gate.opens = GateOpens::at_time;
+  p.gate.time = 4e-4;
+  p.air.enabled = true;
+  p.air.cell = spacing / 1.5;
+  ASSERT_TRUE(is_air_shared(air_grid(p)));
+  expect_same_bits(p, 15, processes(), false);
 }
 
 TEST(Share, VesselWithAGate) {

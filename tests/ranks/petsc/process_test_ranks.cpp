@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "base/random.hpp"
 #include "ranks/halo.hpp"
 #include "ranks/petsc/processes.hpp"
+#include "ranks/slabs.hpp"
 
 namespace talus {
 namespace {
@@ -100,6 +102,51 @@ TEST(Halo, BringsTheValuesOfOtherProcesses) {
     values[0] = rank + add;
     halo.refresh(std::vector{Halo::column(std::span(values))});
     for (std::size_t r = 0; r < size; ++r) EXPECT_EQ(values[r + 1], static_cast<double>(r) + add);
+  }
+}
+
+/// Every row has two elements; rows belong to the processes by turns of unequal length, the first has none.
+TEST(Slabs, BringRowsFromTheirOwners) {
+  const auto size = static_cast<std::size_t>(processes().size());
+  std::vector<std::size_t> border{0, 0};
+  for (std::size_t r = 1; r < size; ++r) border.push_back(border.back() + 2 * r + 1);
+  const std::size_t rows = border.back();
+  for (const bool is_ring : {false, true}) {
+    const Slabs slabs(processes(), border, is_ring);
+    const RowRange own = slabs.own();
+    const std::vector<RowRange> needed = slabs.around({4, 3});
+    const auto is_in = [](const std::vector<RowRange>& ranges, std::size_t row) {
+      return std::any_of(ranges.begin(), ranges.end(),
+                         [&](const RowRange& range) { return row >= range.begin && row < range.end; });
+    };
+    std::vector<double> values(2 * rows, -1);
+    for (std::size_t row = own.begin; row < own.end; ++row)
+      values[row] = static_cast<double>(row), values[rows + row] = 100.0 + static_cast<double>(row);
+    Halo halo = slabs.halo(needed, [&](std::size_t row, std::vector<std::uint32_t>& elements) {
+      elements.push_back(static_cast<std::uint32_t>(row));
+      elements.push_back(static_cast<std::uint32_t>(rows + row));
+    });
+    halo.refresh(std::vector{Halo::column(std::span(values))});
+    for (std::size_t row = 0; row < rows; ++row) {
+      const bool is_known = is_in(needed, row) || is_in({own}, row);
+      EXPECT_EQ(values[row], is_known ? static_cast<double>(row) : -1);
+      EXPECT_EQ(values[rows + row], is_known ? 100.0 + static_cast<double>(row) : -1);
+    }
+  }
+}
+
+TEST(Processes, ThrowTogetherWhatTheFirstOfThemHasMet) {
+  const int last = processes().size() - 1;
+  EXPECT_NO_THROW(together(processes(), [] {}));
+  try {
+    together(processes(), [&] {
+      if (processes().rank() + 1 >= last)
+        throw NumericalError(
+            {.what = "at " + std::to_string(processes().rank()), .term = "", .place = "", .advice = ""});
+    });
+    FAIL() << "some have failed";
+  } catch (const NumericalError& error) {
+    EXPECT_EQ(error.report().what, "at " + std::to_string(last - 1));
   }
 }
 

@@ -25,6 +25,11 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
+bool is_air_shared(const Grid& grid) {
+  // With fewer cells, or planes of them, messages take longer than what they save.
+  return grid.cells() >= 16384 && grid.count[2] >= 16;
+}
+
 Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary, const Share& share)
     : boundary_(boundary),
       share_(share),
@@ -33,7 +38,9 @@ Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary, const Shar
       max_solid_fraction_(std::max(random_close_packing, p.bed.packing)),
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), boundary_.domain(), boundary_.vessel()),
-      flow_(air_grid(p), gas_of(p), boundary_.domain().walls(), boundary_.vessel()),
+      flow_(air_grid(p), gas_of(p), boundary_.domain().walls(), boundary_.vessel(),
+            is_air_shared(air_grid(p)) ? share.ranks() : one_process()),
+      exchange_(air_grid(p), flow_.part()),
       per_solid_volume_(air_grid(p).face_field()),
       slip_square_(air_grid(p).cell_field()) {}
 
@@ -49,13 +56,17 @@ void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing
     openings_ = boundary_.openings();
     flow_.set_walls(boundary_.domain().walls(), boundary_.vessel());
   }
-  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
-    a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
-  });
-  deposit(team, smoothing_length, s);
-  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
-    a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
-  });
+  const auto add_to_excess = [&](double sign) {
+    for_each_cell(team, a.grid, flow_.part().own, [&](int, int, int, std::ptrdiff_t c) {
+      a.excess[static_cast<std::size_t>(c)] += sign * a.solids.fraction[static_cast<std::size_t>(c)];
+    });
+  };
+  add_to_excess(1);
+  find_weights(team, smoothing_length, s);
+  deposit(team, s);
+  add_up(s.air.solids);
+  leave_overfull(s.air.solids);
+  add_to_excess(-1);
   const Stopwatch watch(share_.time().air);
   max_step_ = flow_.time_step(team, a.solids, a.flow);
 }
@@ -76,9 +87,11 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   }
   flow_.add_outflow(team, duration, a.flow, a.excess);
   const double* pressure = a.flow.pressure.data();
-  a.swing_max =
-      std::max(a.swing_max, max_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
+  const air::Part& part = flow_.part();
+  const auto size = [&](std::ptrdiff_t c) { return std::abs(pressure[c]); };
+  a.swing_max = std::max(a.swing_max, largest_of(part.ranks, max_of_cells(team, a.grid, part.own_slab(), size)));
   watch.reset();
+  bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2]});
   received_.resize(s.position.size());
   deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
@@ -95,12 +108,33 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   measure_slip(team, s);
 }
 
-void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+void Atmosphere::find_weights(ThreadTeam& team, std::span<const double> smoothing_length, const State& s) {
   deposition_.find_weights(team, s.position, smoothing_length, share_.part().is_copy);
+}
+
+/// What the particles of this process put on the cells.
+void Atmosphere::deposit(ThreadTeam& team, State& s) const {
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
-  share_.ranks().add_up(s.air.solids.fraction);
-  for (CellField& component : s.air.solids.flux) share_.ranks().add_up(component);
-  if (!boundary_.vessel().is_empty()) leave_overfull(s.air.solids);
+}
+
+/// The deposits of all processes, where this one needs them.
+void Atmosphere::add_up(air::Solids& solids) {
+  if (flow_.part().ranks.is_alone()) return add_up_all(solids);
+  const Stopwatch watch(share_.time().messages);
+  exchange_.find_rows(deposition_);
+  exchange_.add_up(solids);
+}
+
+/// The same on all cells.
+void Atmosphere::add_up_all(air::Solids& solids) const {
+  share_.ranks().add_up(solids.fraction);
+  for (CellField& component : solids.flux) share_.ranks().add_up(component);
+}
+
+/// Fields of cells to the rows of the particles.
+void Atmosphere::bring(std::span<CellField* const> fields) {
+  const Stopwatch watch(share_.time().messages);
+  exchange_.bring(fields);
 }
 
 /// A cell whose centre is within the vessel has the grains of the cells next to it that the wall cuts, too. What is
@@ -108,6 +142,7 @@ void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_len
 /// goes to all of them.
 void Atmosphere::leave_overfull(air::Solids& solids) {
   overfull_.clear();
+  if (boundary_.vessel().is_empty()) return;
   for (std::size_t c = 0; c < solids.fraction.size(); ++c) {
     double& fraction = solids.fraction[c];
     if (!(fraction > max_solid_fraction_)) continue;
@@ -119,18 +154,22 @@ void Atmosphere::leave_overfull(air::Solids& solids) {
 }
 
 void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposit(team, smoothing_length, s);
+  find_weights(team, smoothing_length, s);
+  deposit(team, s);
+  add_up_all(s.air.solids);
+  leave_overfull(s.air.solids);
   flow_.begin(team, s.air.solids, s.air.flow);
 }
 
 /// The slip of each particle is the mean of its cells'.
 void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
   const AirAround& a = s.air;
-  for_each_row(team, a.grid, a.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for_each_row(team, a.grid, a.grid.count, flow_.part().own, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
     auto& [x, y, z] = per_solid_volume_;
     air::find_slip_of_row(end - begin, flow_.cells_from(begin, a.solids, a.flow.velocity), x.data() + begin,
                           y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
+  bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2], &slip_square_});
   const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
   const double slip = largest_of(share_.ranks(), deposition_.max_mean(team, per_solid_volume_, slip_square_,
                                                                       s.air.reynolds_max / reynolds_of_one));
@@ -146,11 +185,11 @@ using InTurn = std::array<Number, turns_of_cells>;
 
 }  // namespace
 
-AirTotals totals_of_air(const AirAround& air) {
+AirTotals Atmosphere::totals(const AirAround& air) const {
   InTurn<double> square{}, least, most;
   ExactSum excess;
   least.fill(infinity), most.fill(-infinity);
-  for_each_air_cell(air, [&](std::size_t c, std::size_t n) {
+  for_each_air_cell(air.grid, flow_.part().own_slab(), [&](std::size_t c, std::size_t n) {
     const Vector3 u{air.flow.cell_velocity(air.grid, 0, c), air.flow.cell_velocity(air.grid, 1, c),
                     air.flow.cell_velocity(air.grid, 2, c)};
     const double here = dot(u, u), p = air.flow.pressure[c];
@@ -159,10 +198,25 @@ AirTotals totals_of_air(const AirAround& air) {
     most[n] = p > most[n] ? p : most[n];
     excess.add(std::abs(air.excess[c]));
   });
-  return {.max_speed = std::sqrt(*std::max_element(square.begin(), square.end())),
-          .min_pressure = *std::min_element(least.begin(), least.end()),
-          .max_pressure = *std::max_element(most.begin(), most.end()),
-          .imbalance = 0.5 * excess.value() * air.grid.volume()};
+  Votes votes{.least = {*std::min_element(least.begin(), least.end())},
+              .largest = {*std::max_element(square.begin(), square.end()), *std::max_element(most.begin(), most.end())},
+              .sum = {}};
+  const Ranks& ranks = flow_.part().ranks;
+  ranks.join(votes);
+  ExactSum total;
+  for (const ExactSum& part : ranks.gather_values(std::vector{excess})) total.add(part);
+  return {.max_speed = std::sqrt(votes.largest[0]),
+          .min_pressure = votes.least[0],
+          .max_pressure = votes.largest[1],
+          .imbalance = 0.5 * total.value() * air.grid.volume()};
+}
+
+void Atmosphere::gather(AirAround& air) const {
+  std::vector<CellField*> fields{&air.flow.pressure, &air.flow.pressure_before, &air.solids.fraction, &air.excess};
+  for (FaceField* const field :
+       {&air.flow.velocity, &air.flow.momentum, &air.flow.momentum_before, &air.flow.drag, &air.solids.flux})
+    for (CellField& component : *field) fields.push_back(&component);
+  flow_.part().gather(fields);
 }
 
 }  // namespace talus::continuum

@@ -3,7 +3,8 @@
 /// the start of its step it computes the impulse of drag and pressure on each particle, which is applied evenly over
 /// the particle steps of the same time. The momentum that the air loses is gained by the particles, to round-off.
 ///
-/// Of several processes each has the whole air: what their particles deposit is added up, and all solve the same.
+/// Several processes share the rows of its cells (air::Part), unless they are few: then each has the whole air, and all
+/// compute the same.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include "base/parallel.hpp"
 #include "models/air/flow.hpp"
 #include "models/continuum/boundary/boundary.hpp"
+#include "models/continuum/gas/cell_exchange.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
@@ -27,6 +29,18 @@ Grid air_grid(const Parameters& parameters);
 
 /// Contradictions between the air's keys and the others; empty without air.
 std::vector<Problem> check_air(const Parameters& parameters);
+
+/// Whether several processes share the cells.
+bool is_air_shared(const Grid& grid);
+
+/// Of all cells of the air, found in one pass.
+struct AirTotals {
+  double max_speed = 0;                       ///< m/s
+  double min_pressure = 0, max_pressure = 0;  ///< Pa
+  /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
+  /// continuity lacks, since what one lacks another has too much.
+  double imbalance = 0;
+};
 
 class Atmosphere {
  public:
@@ -58,9 +72,18 @@ class Atmosphere {
     return flow_.step_limit(state.air.solids, state.air.flow);
   }
 
+  AirTotals totals(const AirAround& air) const;
+
+  /// Brings the first process the fields of all cells.
+  void gather(AirAround& air) const;
+
  private:
   void move_air(ThreadTeam& team, double dt, State& state);
-  void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+  void find_weights(ThreadTeam& team, std::span<const double> smoothing_length, const State& state);
+  void deposit(ThreadTeam& team, State& state) const;
+  void add_up(air::Solids& solids);
+  void add_up_all(air::Solids& solids) const;
+  void bring(std::span<CellField* const> fields);
   void leave_overfull(air::Solids& solids);
   void measure_slip(ThreadTeam& team, State& state);
 
@@ -77,6 +100,7 @@ class Atmosphere {
   coupling::DragMedium medium_;
   coupling::Deposition deposition_;
   air::AirFlow flow_;
+  CellExchange exchange_;
   FaceField per_solid_volume_;  // of cells: impulse, then slip
   CellField slip_square_;
   std::vector<Vector3> received_;
@@ -87,29 +111,18 @@ class Atmosphere {
 
 inline constexpr int turns_of_cells = 8;
 
-/// Calls body(cell, turn). Largest numbers and sums over the cells go on in several places in turn, so that one does
-/// not wait for the last.
+/// Calls body(cell, turn) for rows of cells. Largest numbers and sums over the cells go on in several places in turn,
+/// so that one does not wait for the last.
 template <class Body>
-void for_each_air_cell(const AirAround& air, Body&& body) {
-  for (int k = 0; k < air.grid.count[2]; ++k)
-    for (int j = 0; j < air.grid.count[1]; ++j) {
-      const std::size_t begin = air.grid.index(0, j, k), end = begin + static_cast<std::size_t>(air.grid.count[0]);
-      std::size_t c = begin;
-      for (; c + turns_of_cells <= end; c += turns_of_cells)
-        for (std::size_t n = 0; n < turns_of_cells; ++n) body(c + n, n);
-      for (; c < end; ++c) body(c, 0);
-    }
+void for_each_air_cell(const Grid& grid, const RowRange& rows, Body&& body) {
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
+    const int j = static_cast<int>(row) % grid.count[1], k = static_cast<int>(row) / grid.count[1];
+    const std::size_t begin = grid.index(0, j, k), end = begin + static_cast<std::size_t>(grid.count[0]);
+    std::size_t c = begin;
+    for (; c + turns_of_cells <= end; c += turns_of_cells)
+      for (std::size_t n = 0; n < turns_of_cells; ++n) body(c + n, n);
+    for (; c < end; ++c) body(c, 0);
+  }
 }
-
-/// Of all cells of the air, found in one pass.
-struct AirTotals {
-  double max_speed = 0;                       ///< m/s
-  double min_pressure = 0, max_pressure = 0;  ///< Pa
-  /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
-  /// continuity lacks, since what one lacks another has too much.
-  double imbalance = 0;
-};
-
-AirTotals totals_of_air(const AirAround& air);
 
 }  // namespace talus::continuum
