@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a bed at rest, a column and a silo with particles of two sizes and of one, and compares them.
+"""Runs a bed at rest, a column, a slit, pressure pulses and a silo with particles of two sizes and of one, and compares them.
 
     validation/plant/levels.py [--out results/plant-levels] [--threads N] [--markdown FILE] [--picture FILE]
 
@@ -19,13 +19,20 @@ import talus  # noqa: E402
 
 REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
              if name.startswith("levels-")}
-CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}),
+CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {}),
+         "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
 LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
                   "levels.high": ["112 mm", "64 mm", "100 mm"]},
           "column": {"levels.count": 1, "levels.distance": "20 mm", "levels.low": ["180 mm", "0 mm", "0 mm"],
                      "levels.high": ["240 mm", "40 mm", "40 mm"]},
+          "slit": {"levels.count": 1},
+          "finer": {"levels.count": 1, "levels.distance": "1 mm", "levels.low": ["0 mm", "0 mm", "0 mm"],
+                    "levels.high": ["48 mm", "48 mm", "320 mm"]},
+          "coarser": {"levels.count": 1, "levels.distance": "1 mm", "levels.low": ["0 mm", "0 mm", "320 mm"],
+                      "levels.high": ["48 mm", "48 mm", "720 mm"]},
           "silo": {"levels.count": 1}}
+CHANGE, PULSE = 0.32, 0.16  # height where the level changes; length of the pulse, m
 BEHIND, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.5, 0.1, 0.96665, 1.0  # s; m from the outlet's rim; m; m; m
 
 
@@ -67,6 +74,20 @@ def heap(run):
     return percentile(x[:, 0], mass, 0.995), percentile(x[beside, 2], mass[beside], 0.995)
 
 
+def comes_back(run):
+    """Momentum above the change of level over that of the pulse, mean of the snapshots in which the pulse is between the
+    change and the column's end. A pulse is where its momentum is."""
+    first, found = run.snapshots[0], []
+    whole = (ratios(first) * first["velocity"][:, 2]).sum()
+    for snapshot in run.snapshots:
+        z, momentum = snapshot.positions[:, 2], ratios(snapshot) * snapshot["velocity"][:, 2]
+        below = z < CHANGE
+        middle = (momentum * z)[below].sum() / momentum[below].sum()
+        if momentum[below].sum() / whole > 0.5 and 0.6 * PULSE < middle < CHANGE - 0.6 * PULSE:
+            found.append(momentum[~below].sum() / whole)
+    return float(np.mean(found))
+
+
 def left(run):
     """What has left the silo so long after the opening, kg."""
     time = np.asarray(run.series["time"]) - run.gate_time
@@ -96,6 +117,8 @@ def measure(options):
     return {"levels-rest": np.abs(over_one_size("bed", layers)).max(),
             "levels-front": over_one_size("column", lambda run: heap(run)[0]),
             "levels-height": over_one_size("column", lambda run: heap(run)[1]),
+            "levels-slit": over_one_size("slit", lambda run: run.summary["discharge_steady"]),
+            **{f"levels-wave-{case}": comes_back(runs[case, 1]) - comes_back(runs[case, 0]) for case in ("finer", "coarser")},
             "levels-rate": over_one_size("silo", lambda run: run.summary["discharge_steady"]),
             "levels-left": over_one_size("silo", left),
             "levels-density": over_one_size("silo", density_over_sum)}, runs
