@@ -10,14 +10,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "models/continuum/cases.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/setup/layout.hpp"
-#include "models/continuum/splitting.hpp"
 #include "models/continuum/vessel_parts.hpp"
 #include "models/continuum/whole_circle.hpp"
 #include "numerics/snapshot.hpp"
@@ -35,16 +33,6 @@ Parameters silo(double degrees) {
   p.box.sector = degrees * pi / 180;
   p.bed.height = 10 * spacing;
   p.walls.friction_from = FrictionFrom::start;
-  return p;
-}
-
-/// The same of a law with which particles split about the axis.
-Parameters silo_of_parts(double degrees) {
-  Parameters p = silo(degrees);
-  granular::CriticalState::Parameters law;
-  law.bulk_modulus = 2e5, law.shear_modulus = 1.2e5, law.reference_packing = 0.6;
-  p.law = law;
-  p.sph.smoothing = Smoothing::local;
   return p;
 }
 
@@ -355,73 +343,6 @@ TEST(SectorRegime, SaysWhatIsComputedAndWarnsOfACoarseAxis) {
   EXPECT_EQ(lines_of(90).at("outlet over the sector's axis").value, "2.66") << "3 spacings over (4/pi)^(1/2)";
   EXPECT_TRUE(lines_of(90).at("outlet over the sector's axis").warning) << "below 2.8";
   EXPECT_FALSE(lines_of(90, 1.1).at("outlet over the sector's axis").warning);
-}
-
-/// r times the sector's angle over bed.spacing.
-double arc(const Sector& sector, const Vector3& x) {
-  return sector.radius(x) * 2 * pi / sector.copies() / spacing;
-}
-
-double mass_ratio_of_all(const State& s) {
-  return std::accumulate(s.mass_ratio.begin(), s.mass_ratio.end(), 0.0);
-}
-
-TEST(Sector, AboutTheAxisABedIsLaidOfParts) {
-  for (const double degrees : {90.0, 20.0, 10.0}) {
-    const Parameters p = silo_of_parts(degrees);
-    ASSERT_THAT(check(p), testing::IsEmpty());
-    const State s = initial_state(setup_of(p));
-    EXPECT_EQ(mass_ratio_of_all(s), bed_count(Layout(p)));
-    std::set<double> parts;
-    for (std::size_t i = 0; i < s.position.size(); ++i) {
-      parts.insert(s.mass_ratio[i]);
-      EXPECT_EQ(sector_of(p)->copy_at(s.position[i]), 0);
-      if (arc(*sector_of(p), s.position[i]) > 1.3) EXPECT_EQ(s.mass_ratio[i], 1) << "relaxed from where it was laid";
-    }
-    EXPECT_EQ(*parts.rbegin(), 1);
-    EXPECT_EQ(parts.size(), degrees == 90 ? 1u : degrees == 20 ? 3u : 4u);
-  }
-}
-
-TEST(Sector, PartsKeepMassMomentumVolumeAndHistoryOnTheirWayInAndOut) {
-  const Parameters p = silo_of_parts(20);
-  const auto setup = setup_of(p);
-  const Sector sector = *sector_of(p);
-  const Levels levels(setup);
-  State s = initial_state(setup);
-  s.velocity.assign(s.position.size(), Vector3{0, 0, -1});
-  for (std::size_t i = 0; i < s.position.size(); ++i) s.density[i] *= 1 + 0.01 * double(i % 5);
-  s.material.stress[0].assign(s.position.size(), -100.0);
-  const auto volume = [&] {
-    double sum = 0;
-    for (std::size_t i = 0; i < s.position.size(); ++i) sum += s.mass_of(i) / s.density[i];
-    return sum;
-  };
-  const auto along_radius = [&](double factor) {
-    for (Vector3& x : s.position)
-      x = sector.axis() + Vector3{factor * (x.x - sector.axis().x), factor * (x.y - sector.axis().y), x.z};
-  };
-  const double mass = mass_ratio_of_all(s), space = volume();
-  const std::size_t begun = s.position.size();
-  const auto expect_kept = [&] {
-    EXPECT_EQ(mass_ratio_of_all(s), mass);
-    EXPECT_NEAR(volume(), space, 1e-12 * space);
-    for (const Vector3& u : s.velocity) EXPECT_NEAR(norm(u - Vector3{0, 0, -1}), 0, 1e-12);
-    for (const double stress : s.material.stress[0]) EXPECT_NEAR(stress, -100, 1e-10);
-    EXPECT_NEAR(s.merged_energy, 0, 1e-12 * mass * s.mass);
-    EXPECT_EQ(std::set<std::int64_t>(s.identity.begin(), s.identity.end()).size(), s.identity.size());
-  };
-  along_radius(0.4);
-  split_and_merge(levels, *setup.boundary, p, s);
-  expect_kept();
-  const std::size_t inside = s.position.size();
-  EXPECT_GT(inside, begun + begun / 2);
-  for (const double ratio : s.mass_ratio) EXPECT_EQ(8 * ratio, std::round(8 * ratio));
-  EXPECT_EQ(*std::min_element(s.mass_ratio.begin(), s.mass_ratio.end()), 0.125);
-  along_radius(2.5);
-  for (int n = 0; n < 4; ++n) split_and_merge(levels, *setup.boundary, p, s);
-  expect_kept();
-  EXPECT_LT(s.position.size(), begun + (inside - begun) / 2) << "they merge where the ring is wide";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -54,6 +55,19 @@ inline Parameters shut_silo() {
   p.bed.height = 8 * spacing;
   p.integration.method = Method::leapfrog;
   p.integration.courant = 0.6;
+  return p;
+}
+
+/// The same as a sector, of a law with which particles split about the axis.
+inline Parameters silo_of_parts(double degrees) {
+  Parameters p = shut_silo();
+  p.box.sector = degrees * std::numbers::pi / 180;
+  p.bed.height = 10 * spacing;
+  p.walls.friction_from = FrictionFrom::start;
+  granular::CriticalState::Parameters law;
+  law.bulk_modulus = 2e5, law.shear_modulus = 1.2e5, law.reference_packing = 0.6;
+  p.law = law;
+  p.sph.smoothing = Smoothing::local;
   return p;
 }
 

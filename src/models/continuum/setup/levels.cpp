@@ -42,6 +42,15 @@ double angle_of(const Sector& sector) {
 
 }  // namespace
 
+bool splits_at_axis(const Parameters& p) {
+  return p.box.sector && p.law.is<granular::CriticalState>() && p.sph.smoothing == Smoothing::local &&
+         !(stress_regularisation(p) > 0);
+}
+
+bool has_several_masses(const Parameters& p) {
+  return p.levels.count > 0 || splits_at_axis(p);
+}
+
 Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.levels.count)) {
   if (!has_several_masses(layout.given)) return;
   distance_ = layout.given.levels.distance.value_or(layout.outlet_width.value_or(0));

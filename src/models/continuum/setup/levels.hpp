@@ -57,6 +57,11 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
 
 constexpr int lightest_level = -3;
 
+/// Whether particles of a case split about the axis of its sector.
+bool splits_at_axis(const Parameters& parameters);
+/// That, or levels.
+bool has_several_masses(const Parameters& parameters);
+
 /// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at
 /// least an eighth
 inline int level_of(double mass_ratio) {

@@ -318,15 +318,6 @@ double stress_regularisation(const Parameters& p) {
   return p.law.is<granular::CriticalState>() ? p.sph.stress_regularisation : 0;
 }
 
-bool splits_at_axis(const Parameters& p) {
-  return p.box.sector && p.law.is<granular::CriticalState>() && p.sph.smoothing == Smoothing::local &&
-         !(stress_regularisation(p) > 0);
-}
-
-bool has_several_masses(const Parameters& p) {
-  return p.levels.count > 0 || splits_at_axis(p);
-}
-
 bool has_cohesion(const Parameters& p) {
   return p.law.is<granular::CriticalState>() && granular::bears_tension(p.law);
 }

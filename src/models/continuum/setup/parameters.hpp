@@ -371,12 +371,6 @@ bool draws_by_lasting_rate(const Parameters& parameters);
 /// K, sph.stress_regularisation where the law has it, else 0.
 double stress_regularisation(const Parameters& parameters);
 
-/// Whether particles split about the axis of a sector, where those of bed.spacing would stand in rings wider than they
-/// are (setup/levels.hpp).
-bool splits_at_axis(const Parameters& parameters);
-/// That, or levels.
-bool has_several_masses(const Parameters& parameters);
-
 /// Whether the grains stick together.
 bool has_cohesion(const Parameters& parameters);
 
