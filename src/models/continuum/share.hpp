@@ -33,7 +33,7 @@ struct TimeOfSteps {
   double steps = 0;     ///< all of it
   double messages = 0;  ///< to the halo and votes
   double sharing = 0;   ///< owners, migration, halo, places
-  double air = 0;       ///< what every process computes alike
+  double air = 0;       ///< the air's step, with its messages
 };
 
 /// What splitting adds to the particles of all processes.
