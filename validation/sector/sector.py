@@ -101,7 +101,7 @@ def tell(rows, found):
 def draw(found):
     from matplotlib import pyplot as plt
     figure, axes = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
-    for (name, one), style in zip(found.items(), ("k-", "C0--", "C1-.", "C3:")):
+    for (name, one), style in zip(found.items(), ("k-", "C0--", "C1-.", "C3:", "C2-")):
         axes.plot(one["time"], one["passed"], style, label=name)
     axes.set(xlabel="t, s", ylabel="share that has passed", xlim=(0, None), ylim=(0, 1.02))
     axes.legend(frameon=False)
