@@ -81,7 +81,8 @@ CaseFile with_sector(const CaseFile& file, const ReadSetup& read) {
 CaseFile with_levels(const CaseFile& file, const ReadSetup& read) {
   for (int levels = max_levels; levels > 0; --levels) try {
       CaseFile changed = with(file, fmt::format("levels.count={}", levels));
-      const auto& count = read(changed)->lattice.count;
+      const auto setup = read(changed);
+      const auto& count = setup->lattice.count;
       if (std::min(count[0], count[1]) >= across_vessel << levels) return changed;
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a case without an outlet, or with air
     }
