@@ -21,10 +21,10 @@ namespace {
 using continuum::Accuracy;
 
 constexpr int copies[] = {18, 15, 12, 10, 9, 8, 6, 5, 4};  // narrower sectors cost more: all their copies meet
-constexpr double across_outlet[] = {8, 12, 20};          // particles, by Accuracy
-constexpr double trial_spacings[] = {25, 50, 100, 200};  // on the width of the box, while the outlet is not known
-constexpr int max_levels = 1;                            // coarser ones arch over an outlet of twelve of the finest
-constexpr std::int64_t across_vessel = 16;               // of the coarsest particles, at least
+constexpr double across_outlet[] = {8, 12, 20};            // particles, by Accuracy
+constexpr double trial_spacings[] = {25, 50, 100, 200};    // on the width of the box, while the outlet is not known
+constexpr int max_levels = 1;                              // coarser ones arch over an outlet of twelve of the finest
+constexpr std::int64_t across_vessel = 16;                 // of the coarsest particles, at least
 constexpr const char* option = "accuracy";
 
 CaseFile with(CaseFile file, const std::string& setting) {
