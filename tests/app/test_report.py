@@ -197,7 +197,8 @@ class InABrowser(ProgramTest):
                        "map.value = 'cividis'; map.dispatchEvent(new Event('change'))",
                        "document.querySelector('#views button:last-child').click()"):
             names = "".join(f"const {i} = document.getElementById('{i}');" for i in ("time", "field", "map"))
-            page.evaluate(f"(async () => {{ {names} {change}; await new Promise(done => setTimeout(done, 150)); }})()")
+            drawn_anew = f"for (let n = 0; n < 50 && {canvas} === drawn; ++n) await new Promise(done => setTimeout(done, 100));"
+            page.evaluate(f"(async () => {{ {names} const drawn = {canvas}; {change}; {drawn_anew} }})()")
             seen.append(page.evaluate(canvas))
         self.assertEqual(len(set(seen)), len(seen))
         self.assertNotEqual(page.evaluate(clock), before)
