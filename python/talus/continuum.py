@@ -62,7 +62,7 @@ class Continuum:
 
     @cached_property
     def particles(self):
-        """Their number at the start; with levels in those of the finest."""
+        """Their number at the start; where masses differ, in those of bed.spacing."""
         first = self.run.snapshots[0]
         return float(first["mass_ratio"].sum()) if "mass_ratio" in first else len(first.positions)
 

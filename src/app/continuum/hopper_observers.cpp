@@ -83,7 +83,7 @@ std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::La
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     const auto stress = some.scalars("stress_zz"), strain = some.scalars("strain");
     for (const std::size_t i : particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit)) {
-      const double reach = sph::support * sph::smoothing_length(ratios[i] * mass, density[i]);
+      const double reach = sph::support * sph::smoothing_length(size_ratio(ratios[i]) * mass, density[i]);
       if (std::abs(position[i].x - slit.x) > reach || std::abs(position[i].z - slit.z) > reach + probe_above_slit)
         continue;
       near.position.push_back(position[i]), near.velocity.push_back(velocity[i]);

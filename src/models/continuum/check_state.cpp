@@ -31,7 +31,7 @@ struct Limits {
 
   bool allow_density(const State& s, std::size_t i) const {
     const double value = s.density[i];
-    return value > s.ratios()[i] * min_density && std::isfinite(value);
+    return value > size_ratio(s.ratios()[i]) * min_density && std::isfinite(value);
   }
   /// What has left the box falls on, and meets nobody.
   bool allow_velocity(const Vector3& v, const Vector3& x) const {

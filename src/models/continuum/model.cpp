@@ -130,7 +130,7 @@ Continuum::Totals Continuum::find_totals() const {
     max_packing = std::max(max_packing, s.packing[i]);
     const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) |
                             (x.z < box.low.z) | (x.z > box.high.z);
-    if (is_outside) outside += static_cast<std::uint64_t>(s.ratios()[i]);
+    if (is_outside) outside += s.units_of(i);
   }
   Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};
   join(ranks_, votes, std::span(&momentum, 1));
@@ -141,7 +141,7 @@ Continuum::Totals Continuum::find_totals() const {
           .min_density = of_any(votes.least[0]),
           .max_density = of_any(votes.largest[1]),
           .max_packing = of_any(votes.largest[2]),
-          .mass_outside = s.mass * static_cast<double>(votes.sum[0])};
+          .mass_outside = s.mass_unit() * static_cast<double>(votes.sum[0])};
 }
 
 Continuum::AtEnd Continuum::find_at_end() const {
@@ -221,9 +221,7 @@ std::vector<NamedValue> Continuum::totals() const {
   if (s.has.mass_ratio) values.push_back({"merged_energy", "J", copies * s.merged_energy});
   if (s.population.is_active) {
     values.push_back({"fed_mass", "kg", copies * s.mass * static_cast<double>(s.population.fed)});
-    values.push_back(
-        {"removed_mass", "kg",
-         copies * s.mass / (s.has.mass_ratio ? parts_of_mass : 1) * static_cast<double>(s.population.removed)});
+    values.push_back({"removed_mass", "kg", copies * s.mass_unit() * static_cast<double>(s.population.removed)});
     add("fed_momentum", s.population.fed_momentum);
     add("removed_momentum", s.population.removed_momentum);
   }

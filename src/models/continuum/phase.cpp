@@ -62,7 +62,8 @@ std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& posi
 std::size_t left_vessel(const Layout& layout, const State& s, const Share& share) {
   const std::size_t before = outside_vessel(layout.given, bed_positions(layout), Share(one_process())),
                     now = sum_of(share.ranks(), outside_vessel(layout.given, s.position, share));
-  return (now > before ? now - before : 0) + s.population.removed;
+  const double removed = static_cast<double>(s.population.removed) * (s.mass_unit() / s.mass);
+  return (now > before ? now - before : 0) + static_cast<std::size_t>(removed);
 }
 
 }  // namespace

@@ -117,11 +117,11 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   std::vector<std::uint32_t> left;
   const FixedPoint point(s.impulse_unit);
   FixedVector taken;
-  std::uint64_t parts = 0;  // of mass
+  std::uint64_t units = 0;  // of mass
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (is_outside(p, w.boundary.domain().box(), s.position[i])) {
       taken.add(point, s.mass_of(i) * s.velocity[i]);
-      if (s.has.mass_ratio) parts += static_cast<std::uint64_t>(parts_of_mass * s.mass_ratio[i]);
+      units += s.units_of(i);
     } else {
       left.push_back(static_cast<std::uint32_t>(i));
     }
@@ -130,7 +130,7 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   const std::size_t gone = w.share.is_all() ? s.position.size() - left.size() : w.share.remove(left);
   s.population.removed_momentum += taken.value(point);
   if (gone == 0) return false;
-  s.population.removed += s.has.mass_ratio ? sum_of(w.share.ranks(), parts) : gone;
+  s.population.removed += sum_of(w.share.ranks(), units);
   select(s, left);
   fit(p, s, w);
   return true;

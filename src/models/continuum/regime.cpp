@@ -90,7 +90,8 @@ void add_sector(const Setup& setup, std::vector<RegimeLine>& lines) {
   lines.push_back(
       {"outlet over the sector's axis", fmt::format("{:.3g}", ratio),
        fmt::format("radius of the outlet over that of the ring in which the lightest particle and its copies "
-                   "stand about the axis, {:.3g} mm; the outlet discharges 6 % less at 2.3, 16 % at 1.9, 33 % at 1.6 "
+                   "stand about the axis, {:.3g} mm; with whole ones the outlet discharges 6 % less at 2.3, 16 % at "
+                   "1.9, 33 % at 1.6 "
                    "(validation/sector): below {:g} take a larger sector or a smaller bed.spacing",
                    ring / millimetre, min_outlet_over_axis),
        ratio < min_outlet_over_axis});

@@ -114,9 +114,8 @@ enum class Halves { along_axis, across_axis };
 /// A particle about the axis of a sector in two.
 void add_halves(const Boundary& boundary, const State& s, std::size_t i, Halves halves, Copies& copies) {
   constexpr double apart = 0.7;  // in spacings
-  const double ratio = s.mass_ratio[i];
-  const std::array mass{ratio - std::floor(0.5 * parts_of_mass * ratio) / parts_of_mass,
-                        std::floor(0.5 * parts_of_mass * ratio) / parts_of_mass};
+  const double ratio = s.mass_ratio[i], smaller = std::floor(0.5 * parts_of_mass * ratio) / parts_of_mass;
+  const std::array mass{ratio - smaller, smaller};
   std::array<Vector3, 2> by;
   if (halves == Halves::along_axis) {
     const double size = cube_root(s.mass / s.density[i]);
@@ -254,7 +253,7 @@ void relax(const Boundary& boundary, double ratio, int passes, std::vector<doubl
   std::vector<double>&length = s.list_smoothing_length, &margin = s.list_margin;
   length.clear(), margin.clear();
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    length.push_back(ratio * cube_root(size_ratio(s.mass_ratio[i]) * s.mass / s.density[i]));
+    length.push_back(ratio * cube_root(s.mass_of_size(i) / s.density[i]));
     margin.push_back(most * length.back());
   }
   share.distribute(s, boundary.domain(), std::array{&is_part});

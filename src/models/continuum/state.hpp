@@ -49,7 +49,7 @@ struct Population {
   bool is_active = false;           ///< from the case, not a field: whether any can
   std::uint64_t next_identity = 0;  ///< of a particle to come
   std::uint64_t fed = 0;            ///< particles that came in
-  std::uint64_t removed = 0;        ///< that were taken away; where masses differ, eighths of one of bed.spacing
+  std::uint64_t removed = 0;        ///< that were taken away, in State::mass_unit()
   Vector3 fed_momentum;             ///< what they brought, N s
   Vector3 removed_momentum;         ///< what they took along, N s
   std::vector<double> next_layer;   ///< of each inlet: when it is due, by its clock, s
@@ -103,6 +103,13 @@ struct State {
 
   MassRatios ratios() const { return {mass_ratio}; }
   double mass_of(std::size_t i) const { return ratios()[i] * mass; }  ///< kg
+  /// Of what has its smoothing length (size_ratio), kg.
+  double mass_of_size(std::size_t i) const { return size_ratio(ratios()[i]) * mass; }
+  /// In which masses are counted: `mass` where all are equal, kg.
+  double mass_unit() const { return has.mass_ratio ? mass / parts_of_mass : mass; }
+  std::uint64_t units_of(std::size_t i) const {
+    return has.mass_ratio ? static_cast<std::uint64_t>(parts_of_mass * mass_ratio[i]) : 1;
+  }
 
   // Phases.
   double gate_time = -1;   ///< when the gate opened, s; -1: it has not

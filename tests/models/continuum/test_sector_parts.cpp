@@ -88,5 +88,42 @@ TEST(SectorParts, PartsKeepMassMomentumVolumeAndHistoryOnTheirWayInAndOut) {
   EXPECT_LT(s.position.size(), begun + 2 * (inside - begun) / 3) << "they merge where the ring is wide";
 }
 
+TEST(SectorParts, AreForeseenAsTheyAreLaid) {
+  for (const double degrees : {20.0, 10.0}) {
+    const auto setup = setup_of(silo_of_parts(degrees));
+    const double laid = static_cast<double>(initial_state(setup).position.size());
+    EXPECT_NEAR(share_of_particles(setup) * bed_count(setup), laid, 0.1 * laid);
+    EXPECT_GT(laid, 1.05 * bed_count(setup));
+  }
+}
+
+TEST(SectorParts, WhatLeavesIsCountedByItsMass) {
+  Parameters p = silo_of_parts(20);
+  p.gate.opens = GateOpens::from_the_start;
+  p.box.floor = FaceKind::open;
+  p.removal.below = 4 * spacing;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  const auto value = [&](const std::string& name) {
+    for (const NamedValue& v : model.totals())
+      if (v.name == name) return v.value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  const double mass = mass_ratio_of_all(s);
+  while (s.population.removed < 40) model.advance(team);
+  std::set<double> left;
+  double outside = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    left.insert(s.mass_ratio[i]);
+    if (!model.domain().box().contains(s.position[i])) outside += s.mass_of(i);
+  }
+  EXPECT_LT(*left.begin(), 1);
+  const double removed = value("removed_mass");
+  EXPECT_NEAR(removed / (18 * s.mass), mass - mass_ratio_of_all(s), 1e-9 * mass);
+  EXPECT_NEAR(value("mass_outside"), 18 * outside, 1e-9 * mass * s.mass);
+}
+
 }  // namespace
 }  // namespace talus::continuum

@@ -156,7 +156,7 @@ std::int32_t slot_of(const VesselWalls& walls, std::size_t particle) {
 Vector3 velocity_after_printed_friction(const Parameters& p, const Domain& domain, int wall, const State& state,
                                         std::size_t i, const Vector3& position, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];
-  if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass_of(i), state.density[i]) ||
+  if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass_of_size(i), state.density[i]) ||
       !domain.is_beside(wall, position))
     return velocity;
   const Vector3 through = dot(velocity, n) * n;

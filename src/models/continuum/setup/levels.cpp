@@ -76,8 +76,7 @@ int Levels::wanted(const Vector3& x, double slack) const {
   int level = 0;
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
   if (!sector_) return level;
-  const double arc =
-      sector_->radius(x) * 2 * std::numbers::pi / (slack * sector_->copies() * spacing_.x);  // in spacings
+  const double arc = sector_->radius(x) * angle_of(*sector_) / (slack * spacing_.x);  // in spacings
   while (level > lightest_level && arc < std::ldexp(1.0, level)) --level;
   return level;
 }
@@ -113,7 +112,7 @@ double Levels::places_in_ring(std::int64_t ring) const {
 
 double share_of_particles(const Layout& layout) {
   const Levels levels(layout);
-  if (levels.count() == 0 || layout.has_no_bed()) return 1;
+  if (!has_several_masses(layout.given) || layout.has_no_bed()) return 1;
   constexpr double max_tried = 1e5;
   if (const double count = bed_count(layout); count > max_tried) {
     Parameters coarser = layout.given;
@@ -123,7 +122,7 @@ double share_of_particles(const Layout& layout) {
   }
   double sum = 0;
   const std::vector<Vector3> positions = bed_positions(layout);
-  for (const Vector3& x : positions) sum += std::exp2(-3 * levels.wanted(x, Levels::slack_of_merging));
+  for (const Vector3& x : positions) sum += 1 / mass_ratio_of(levels.wanted(x, Levels::slack_of_merging));
   return positions.empty() ? 1 : sum / static_cast<double>(positions.size());
 }
 

@@ -55,7 +55,7 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
 }
 
-constexpr int lightest_level = -3;
+constexpr int lightest_level = -3;  // an eighth, parts_of_mass
 
 /// Whether particles of a case split about the axis of its sector.
 bool splits_at_axis(const Parameters& parameters);
@@ -69,6 +69,11 @@ inline int level_of(double mass_ratio) {
   for (double bound = std::sqrt(8.0); mass_ratio > bound; bound *= 8) ++level;
   for (double bound = std::sqrt(0.5); level > lightest_level && mass_ratio < bound; bound *= 0.5) --level;
   return level;
+}
+
+/// The mass ratio of a particle of a level, as it is laid.
+inline double mass_ratio_of(int level) {
+  return std::exp2(level < 0 ? level : 3 * level);
 }
 
 /// Which level is wanted where.
@@ -102,8 +107,8 @@ class Levels {
   Vector3 corner_, spacing_;  // of the lattice, of a sector along the radius, any and z, m
 };
 
-/// How many particles there are at the start for each of those of bed.spacing, 0 to 1: the mean over the bed of one
-/// over the mass ratio that is wanted.
+/// How many particles there are at the start for each of those of bed.spacing: the mean over the bed of one over the
+/// mass ratio that is wanted.
 double share_of_particles(const Layout& layout);
 
 /// What levels of a case cannot be, by its keys alone, and in its layout if that is sound.
