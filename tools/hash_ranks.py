@@ -39,7 +39,7 @@ CASES = hash_cases.SHORT | {
     "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left": "periodic", "box.right": "periodic",
                                                "box.front": "periodic", "box.rear": "periodic", "run.end": "4 ms"}),
     "shared air": (
-        "yuu2011-hopper-air", {**COARSE_HOPPER, **SOON, "air.cell": "1.25 mm", "run.end": "4 ms", "output.series": "0.4 ms"}),
+        "yuu2011-hopper-air", {**COARSE_HOPPER, **SOON, "air.cell": "1.25 mm", "run.end": "2 ms", "output.series": "0.4 ms"}),
     "shared air in a silo": (
         "silo-cone", {"bed.spacing": "5 mm", "run.end": "4 ms", "output.snapshots": "2 ms", **SOON, "air.enabled": "true",
                       "air.cell": "2.5 mm"}),

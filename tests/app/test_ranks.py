@@ -33,6 +33,9 @@ class Ranks(program.ProgramTest):
     def test_air(self):
         self.check_same("hopper, air", [(2, 1), (3, 2)])
 
+    def test_air_whose_cells_are_shared(self):
+        self.check_same("shared air", [(2, 2), (3, 1)])
+
     def test_vessel(self):
         self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
 
@@ -47,6 +50,12 @@ class Ranks(program.ProgramTest):
 
     def test_inlet_and_removal(self):
         self.check_same("chute with inlet and removal", [(2, 1), (3, 1), (8, 1)])
+
+    def test_particles_of_several_sizes(self):
+        self.check_same("silo of three sizes", [(2, 1), (3, 1), (8, 1)])
+
+    def test_particles_of_several_sizes_in_a_sector(self):
+        self.check_same("sector of two sizes", [(2, 2), (3, 1), (8, 1)])
 
     def run_hopper(self, ranks, program_name, out, *options, name="hopper, vacuum"):
         case, settings = hash_ranks.CASES[name]
