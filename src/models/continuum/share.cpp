@@ -16,7 +16,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double uneven = 1.08;             // most particles of a process over the mean, at which space is cut again
+constexpr double uneven = 1.05;             // most work of a process over the mean, at which space is cut again
 constexpr std::size_t asked_together = 32;  // particles
 
 /// The kept columns of particles as rows of words of 8 bytes.
@@ -106,10 +106,9 @@ void Share::begin(State& s) {
   std::iota(place_.begin(), place_.end(), before);
 }
 
-/// Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
 void Share::cut(std::span<const Vector3> points) {
   if (!partition_) partition_ = ranks_.partition();
-  partition_->cut(points, std::vector<double>(points.size(), 1.0));
+  partition_->cut(points, std::vector<double>(points.size(), static_cast<double>(work_)));
 }
 
 /// Whose the particles will be.
@@ -118,23 +117,25 @@ std::vector<int> Share::owners(const State& s) {
   const std::size_t here = s.list_position.size();
   std::vector<int> owner(here, ranks_.rank());
   if (count_ == 0) return owner;
-  std::uint64_t least = 0, most = 0;
+  std::uint64_t least = 0, most = 0;  // particles of a process
   const bool are_at_start = least_owned_ > most_owned_;
   const auto note = [&] {
     least_owned_ = std::min(least_owned_, least), most_owned_ = std::max(most_owned_, most);
     if (!are_at_start) moved_ += here - static_cast<std::size_t>(std::count(owner.begin(), owner.end(), ranks_.rank()));
   };
+  // Finds the owners. The particles of each process, then their work. Returns the largest work over the mean.
   const auto assign = [&] {
-    Votes votes{.least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(size, 0)};
+    Votes votes{.least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(2 * size, 0)};
     for (std::size_t i = 0; i < here; ++i)
       ++votes.sum[static_cast<std::size_t>(owner[i] = partition_->rank_of(s.list_position[i]))];
+    for (std::size_t r = 0; r < size; ++r) votes.sum[size + r] = work_ * votes.sum[r];
     ranks_.join(votes);
-    std::tie(least, most) = std::pair(*std::min_element(votes.sum.begin(), votes.sum.end()),
-                                      *std::max_element(votes.sum.begin(), votes.sum.end()));
-    return static_cast<double>(most);
+    const auto works = votes.sum.begin() + static_cast<std::ptrdiff_t>(size);
+    least = *std::min_element(votes.sum.begin(), works), most = *std::max_element(votes.sum.begin(), works);
+    return static_cast<double>(*std::max_element(works, votes.sum.end()) * size) /
+           static_cast<double>(std::accumulate(works, votes.sum.end(), std::uint64_t{0}));
   };
-  const double even = static_cast<double>(count_) / static_cast<double>(size);
-  if (partition_ && assign() <= uneven * even) return note(), owner;
+  if (partition_ && assign() <= uneven) return note(), owner;
   cut(s.list_position);
   assign();
   note();
@@ -192,16 +193,16 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   for (std::size_t i = 0; i < owner.size(); ++i)
     owner[i] == ranks_.rank() ? stay.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
   send(s, carried, leaving, &stay);
-  const std::size_t own = place_.size();
+  own_ = place_.size();
 
   const ByRank copied = halo_of_others(s, domain);
   std::unique_ptr<Plan> plan = send(s, carried, copied, nullptr);
-  const std::vector<std::uint32_t> order = by_place(own);
+  const std::vector<std::uint32_t> order = by_place(own_);
   rows_for(s, place_, carried, place_.size()).take(order);
   std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
   for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
   for (std::uint32_t& n : sent) n = number[n];
-  received.assign(number.begin() + static_cast<std::ptrdiff_t>(own), number.end());
+  received.assign(number.begin() + static_cast<std::ptrdiff_t>(own_), number.end());
   is_halo_.assign(number.size(), 0);
   for (const std::uint32_t n : received) is_halo_[n] = 1;
   halo_ = Halo(std::move(plan), std::move(sent), std::move(received));

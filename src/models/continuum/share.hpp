@@ -10,6 +10,7 @@
 /// One process by itself owns all, has no halo, and the place of a particle is its number.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -70,6 +71,8 @@ class Share {
   /// \param where of a particle, m; nothing: it stays
   void bring(State& state, const std::function<std::optional<Vector3>(std::size_t)>& where);
 
+  /// What a particle here costs among those of others, when space is cut again. \param pairs in the lists of this process
+  void weigh(std::size_t pairs) { work_ = std::max<std::uint64_t>(1, 1000 * pairs / std::max<std::size_t>(own_, 1)); }
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
 
@@ -142,6 +145,8 @@ class Share {
   const Ranks& ranks_;
   std::unique_ptr<Partition> partition_;
   std::size_t count_ = 0;            // of all processes
+  std::size_t own_ = 0;              // of the particles of the lists here how many this process owns
+  std::uint64_t work_ = 1;           // of each of them, as that of others
   std::vector<std::int64_t> place_;  // of the particles here, rising but between sort and distribute
   std::vector<char> is_halo_;        // of the particles here; empty: none is
   Halo halo_;

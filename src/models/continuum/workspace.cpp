@@ -71,6 +71,7 @@ void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w,
   }
   w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, s.mass_ratio, w.share.part(),
                           w.share.is_all() ? nullptr : &w.share.halo_messages());
+  w.share.weigh(w.pairs.neighbourhood().pairs());
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {

@@ -158,16 +158,41 @@ std::vector<Vector3> places(std::uint64_t seed, std::size_t count) {
   return points;
 }
 
+/// The weight in the part of each process. \param weight of each of these points
+std::vector<double> weights_of_parts(const Partition& partition, std::span<const Vector3> points, std::uint64_t weight) {
+  Votes votes{
+      .least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(static_cast<std::size_t>(processes().size()))};
+  for (const Vector3& x : points) votes.sum[static_cast<std::size_t>(partition.rank_of(x))] += weight;
+  processes().join(votes);
+  return {votes.sum.begin(), votes.sum.end()};
+}
+
 TEST(Partition, GivesEachProcessItsShareOfTheWeight) {
   const auto partition = processes().partition();
   const std::size_t each = 500;
   const std::vector<Vector3> own = places(static_cast<std::uint64_t>(processes().rank()) + 1, each);
   partition->cut(own, std::vector<double>(each, 1.0));
-  Votes votes{
-      .least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(static_cast<std::size_t>(processes().size()))};
-  for (const Vector3& x : own) ++votes.sum[static_cast<std::size_t>(partition->rank_of(x))];
-  processes().join(votes);
-  for (const std::uint64_t count : votes.sum) EXPECT_NEAR(static_cast<double>(count), each, 0.05 * each);
+  for (const double weight : weights_of_parts(*partition, own, 1)) EXPECT_NEAR(weight, each, 0.05 * each);
+}
+
+TEST(Partition, FollowsTheWeights) {
+  const auto partition = processes().partition();
+  std::vector<Vector3> own = places(static_cast<std::uint64_t>(processes().rank()) + 1, 500);
+  for (Vector3& x : own) x.y += 2 * processes().rank();  // each its own part of space, and a weight of its own
+  const auto weight = static_cast<std::uint64_t>(processes().rank() + 1);
+  partition->cut(own, std::vector<double>(own.size(), static_cast<double>(weight)));
+  const double mean = 250.0 * (processes().size() + 1);
+  for (const double found : weights_of_parts(*partition, own, weight)) EXPECT_NEAR(found, mean, 0.05 * mean);
+}
+
+TEST(Partition, CutsThroughTheLayersOfALattice) {
+  const auto partition = processes().partition();
+  std::vector<Vector3> own;
+  for (int n = 0; n < 9 * 9 * 9 && processes().is_first(); ++n)
+    own.push_back({0.1 * (n % 9), 0.1 * (n / 9 % 9), 0.1 * (n / 81)});
+  partition->cut(own, std::vector<double>(own.size(), 1.0));
+  const double mean = 729.0 / processes().size();  // a layer is 81
+  for (const double weight : weights_of_parts(*partition, own, 1)) EXPECT_NEAR(weight, mean, std::max(3.0, 0.02 * mean));
 }
 
 TEST(Partition, IsTheSameForAllAndFindsThePartsOfABox) {
