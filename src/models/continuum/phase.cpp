@@ -102,7 +102,7 @@ void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, St
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     w.share.join_window(s.wall_loads);
-    begin_flow(s.time, s.wall_loads);
+    begin_flow(w.load_fields, s.time, s.wall_loads);
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > scales.settling_limit) {
     const std::size_t left = left_vessel(setup, s, w.share);

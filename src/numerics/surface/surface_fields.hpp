@@ -44,15 +44,18 @@ class SurfaceFields {
   /// quarter of a band's load. \pre the part has an area
   FieldShare under(std::uint32_t part, const Vector3& place) const;
 
-  /// What notes a load in a sector notes it in all its copies: the sector, and the field that a field is in the copy so
-  /// many angles on.
-  const std::optional<Sector>& sector() const { return sector_; }
-  std::uint32_t in_copy(std::uint32_t field, int angles) const {
-    const std::size_t own = fields_.size() / static_cast<std::size_t>(sector_->copies());
-    return static_cast<std::uint32_t>((field + static_cast<std::size_t>(angles) * own) % fields_.size());
-  }
+  /// The field of a sector itself that a field is a copy of; without a sector, the field.
+  std::size_t original(std::size_t field) const { return sector_ ? field % own() : field; }
+  /// A vector at its original as it is at a field, and the reverse.
+  Vector3 from_original(std::size_t field, const Vector3& v) const { return turned(field, 1, v); }
+  Vector3 to_original(std::size_t field, const Vector3& v) const { return turned(field, -1, v); }
 
  private:
+  std::size_t own() const { return fields_.size() / static_cast<std::size_t>(sector_->copies()); }
+  Vector3 turned(std::size_t field, int way, const Vector3& v) const {
+    const int copy = sector_ ? static_cast<int>(field / own()) : 0;
+    return copy == 0 ? v : sector_->turn(way * copy) * v;
+  }
   void find_areas(const Surface& surface, const Vector3& low, const Vector3& high);
 
   double size_ = 0;

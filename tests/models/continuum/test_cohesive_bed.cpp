@@ -136,12 +136,13 @@ TEST(CohesiveBed, PullsAtAVesselAsFarAsItsWallHolds) {
   Continuum model = started(p, team);
   const State& s = model.state();
   const double area = 36 * spacing * spacing;
+  const SurfaceFields fields = load_fields(Layout(p));
   double most = 0, before = 0, last = 0;
   while (s.time < 0.02) {
     model.advance(team);
     double push = 0, received = 0;
     for (std::size_t n = 0; n < s.wall_loads.push.size(); ++n)
-      push += s.wall_loads.push_of(n), received += s.wall_loads.received_of(n).z;
+      push += s.wall_loads.push_of(fields, n), received += s.wall_loads.received_of(fields, n).z;
     EXPECT_NEAR(push, -received, 1e-6 * std::abs(received) + 1e-15);
     EXPECT_NEAR(received, vessel_impulse(s)[0].z, 1e-6 * std::abs(received) + 1e-15);
     if (s.time > last) most = std::max(most, (before - push) / (s.time - last) / area);

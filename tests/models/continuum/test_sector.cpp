@@ -261,14 +261,27 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   EXPECT_NEAR(loads.pressing_on_cylinder / loads.weight, expected.pressing_on_cylinder / expected.weight,
               0.08 * expected.pressing_on_cylinder / expected.weight);
   // Fields of all copies bear the same, turned.
-  const SurfaceFields fields = load_fields(Layout(p));
-  for (std::uint32_t n = 0; n < fields.count(); ++n) {
-    const std::uint32_t next = fields.in_copy(n, 1);
-    EXPECT_NEAR(noted.push_of(next), noted.push_of(n), 1e-12 * noted.push_of(n));
-    EXPECT_LE(norm(noted.received_of(next) - fields.sector()->turn(1) * noted.received_of(n)),
-              1e-12 * norm(noted.received_of(n)));
-    EXPECT_NEAR(norm(fields.all()[next].place - fields.sector()->turned(fields.all()[n].place, 1)), 0, 1e-14);
+  const Layout layout(p);
+  const SurfaceFields fields = load_fields(layout);
+  const Sector sector = *layout.sector();
+  const std::size_t own = fields.count() / static_cast<std::size_t>(sector.copies());
+  for (std::size_t n = 0; n < fields.count(); ++n) {
+    const std::size_t next = (n + own) % fields.count();
+    const double push = noted.push_of(fields, n);
+    const Vector3 received = noted.received_of(fields, n);
+    EXPECT_NEAR(noted.push_of(fields, next), push, 1e-12 * push);
+    EXPECT_LE(norm(noted.received_of(fields, next) - sector.turn(1) * received), 1e-12 * norm(received));
+    EXPECT_NEAR(norm(fields.all()[next].place - sector.turned(fields.all()[n].place, 1)), 0, 1e-14);
+    EXPECT_EQ(fields.original(n), n % own);
+    EXPECT_LE(norm(fields.to_original(n, fields.from_original(n, received)) - received), 1e-12 * norm(received));
   }
+  // A load on a field of a copy is one on its original, turned back.
+  WallLoads once = no_loads(fields.count(), 1);
+  const Vector3 force{0.25, 0, -1};
+  add_load({{static_cast<std::uint32_t>(2 * own + 3), 0, 1}, 1, sector.turn(2) * force}, fields, once);
+  EXPECT_LE(norm(once.received_of(fields, 3) - force), 1e-12);
+  EXPECT_LE(norm(once.received_of(fields, 3 + own) - sector.turn(1) * force), 1e-12);
+  EXPECT_EQ(once.push_of(fields, 4), 0);
 }
 
 std::vector<std::string> faults_of(const Parameters& p) {

@@ -67,15 +67,12 @@ WallLoads no_loads(std::size_t fields, double unit) {
 }
 
 void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& loads) {
-  const std::optional<Sector>& sector = fields.sector();
   const auto add = [&](std::uint32_t field, double share) {
-    for (int k = 0; k < (sector ? sector->copies() : 1); ++k) {
-      const std::uint32_t n = k == 0 ? field : fields.in_copy(field, k);
-      const Vector3 received = share * (k == 0 ? load.received : sector->turn(k) * load.received);
-      loads.window_push.add(n, loads.point.of(share * load.push));
-      for (int axis = 0; axis < 3; ++axis)
-        loads.window_received.add(3 * n + static_cast<std::size_t>(axis), loads.point.of(received[axis]));
-    }
+    const std::size_t n = fields.original(field);
+    const Vector3 received = share * fields.to_original(field, load.received);
+    loads.window_push.add(n, loads.point.of(share * load.push));
+    for (int axis = 0; axis < 3; ++axis)
+      loads.window_received.add(3 * n + static_cast<std::size_t>(axis), loads.point.of(received[axis]));
   };
   const double share = load.fields.share;
   add(load.fields.field, share);
@@ -85,8 +82,8 @@ void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& 
 namespace {
 
 /// Adds what the present window has to what came before it, and begins the next one.
-void begin_window(double time, WallLoads& w) {
-  for (std::size_t n = 0; n < w.push.size(); ++n) w.push[n] = w.push_of(n), w.received[n] = w.received_of(n);
+void begin_window(const SurfaceFields& fields, double time, WallLoads& w) {
+  for (std::size_t n = 0; n < w.push.size(); ++n) w.push[n] = w.push_of(fields, n), w.received[n] = w.received_of(fields, n);
   w.window_push.clear(), w.window_received.clear();
   w.window_start = time;
 }
@@ -98,20 +95,20 @@ void close_window(const SurfaceFields& fields, double time, double length, WallL
   const double duration = time - w.window_start;
   for (std::size_t n = 0; n < fields.count(); ++n) {
     const double over = per_area(fields.all()[n], duration);
-    w.pressure[n] = over * w.point.value(w.window_push[n]);
-    w.traction[n] = over * w.in_window(n);
+    w.pressure[n] = over * w.push_in_window(fields, n);
+    w.traction[n] = over * w.in_window(fields, n);
     if (w.pressure[n] > w.max_pressure[n]) {
       w.max_pressure[n] = w.pressure[n];
       w.max_time[n] = time - 0.5 * duration;
     }
   }
-  begin_window(time, w);
+  begin_window(fields, time, w);
 }
 
-void begin_flow(double time, WallLoads& w) {
+void begin_flow(const SurfaceFields& fields, double time, WallLoads& w) {
   w.rest_pressure = w.pressure;
   w.rest_traction = w.traction;
-  begin_window(time, w);
+  begin_window(fields, time, w);
   w.gate_push = w.push;
   w.gate_received = w.received;
   std::fill(w.max_pressure.begin(), w.max_pressure.end(), 0.0);
@@ -175,8 +172,8 @@ std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const Surf
   for (const LoadBand& band : bands) {
     double push = 0, shear = 0;
     for (const std::uint32_t n : band.fields) {
-      push += loads.push_of(n);
-      shear += dot(loads.received_of(n), downwards(fields.all()[n].normal));
+      push += loads.push_of(fields, n);
+      shear += dot(loads.received_of(fields, n), downwards(fields.all()[n].normal));
     }
     values.push_back({"normal_impulse_" + band.name, "N s", push});
     if (!band.is_level()) values.push_back({"shear_impulse_" + band.name, "N s", shear});
@@ -200,9 +197,9 @@ SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, con
   add("shear", "Pa", [&](std::size_t n) { return along(w.traction[n], normal(n)); });
   add("pressure_at_rest", "Pa", [&](std::size_t n) { return w.rest_pressure[n]; });
   add("shear_at_rest", "Pa", [&](std::size_t n) { return along(w.rest_traction[n], normal(n)); });
-  add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push_of(n) - w.gate_push[n]); });
+  add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push_of(fields, n) - w.gate_push[n]); });
   add("shear_in_flow", "Pa",
-      [&](std::size_t n) { return along(since_gate(n) * (w.received_of(n) - w.gate_received[n]), normal(n)); });
+      [&](std::size_t n) { return along(since_gate(n) * (w.received_of(fields, n) - w.gate_received[n]), normal(n)); });
   add("pressure_largest", "Pa", [&](std::size_t n) { return w.max_pressure[n]; });
   add("time_of_largest", "s", [&](std::size_t n) { return w.max_time[n]; });
   add("patch", "1", [&](std::size_t n) { return static_cast<double>(fields.all()[n].patch); });

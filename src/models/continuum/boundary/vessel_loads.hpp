@@ -24,7 +24,8 @@ struct WallLoads {
   // The same until the opening of the gate.
   std::vector<double> gate_push;
   std::vector<Vector3> gate_received;
-  // The same in the present window, in fixed point: sums of no order. Of window_received x, y, z, one after another.
+  // The same in the present window, in fixed point: sums of no order; of window_received x, y, z, one after another. In
+  // a sector what its copies received is noted at the fields of the sector itself (SurfaceFields::original).
   FixedSums window_push, window_received;
   FixedPoint point{1};  ///< of the window, N s; from the case, not a field
   // Means over the last whole window, and over the last one before the gate opened, Pa.
@@ -35,12 +36,16 @@ struct WallLoads {
   double window_start = 0;  ///< s
 
   /// Since the start, N s.
-  double push_of(std::size_t field) const { return push[field] + point.value(window_push[field]); }
-  Vector3 received_of(std::size_t field) const { return received[field] + in_window(field); }
+  double push_of(const SurfaceFields& fields, std::size_t n) const { return push[n] + push_in_window(fields, n); }
+  Vector3 received_of(const SurfaceFields& fields, std::size_t n) const { return received[n] + in_window(fields, n); }
   /// In the present window, N s.
-  Vector3 in_window(std::size_t field) const {
-    return {point.value(window_received[3 * field]), point.value(window_received[3 * field + 1]),
-            point.value(window_received[3 * field + 2])};
+  double push_in_window(const SurfaceFields& fields, std::size_t n) const {
+    return point.value(window_push[fields.original(n)]);
+  }
+  Vector3 in_window(const SurfaceFields& fields, std::size_t n) const {
+    const std::size_t from = 3 * fields.original(n);
+    return fields.from_original(n, {point.value(window_received[from]), point.value(window_received[from + 1]),
+                                    point.value(window_received[from + 2])});
   }
 };
 
@@ -57,7 +62,7 @@ SurfaceFields load_fields(const Layout& layout);
 /// Without load. \param fields their number \param unit State::impulse_unit, N s
 WallLoads no_loads(std::size_t fields, double unit);
 
-/// To the fields, and in a sector to what they are in all copies: the loads are those of the whole vessel.
+/// To the fields, and in a sector to all copies of them: the loads are those of the whole vessel.
 void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& loads);
 
 /// Whether close_window() would close the window.
@@ -69,7 +74,7 @@ inline bool is_window_over(double time, double length, const WallLoads& loads) {
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);
 
 /// Takes the last window for that at rest, and resets the largest loads. \param time of the opening, s
-void begin_flow(double time, WallLoads& loads);
+void begin_flow(const SurfaceFields& fields, double time, WallLoads& loads);
 
 /// A part of a patch between two heights.
 struct LoadBand {

@@ -52,10 +52,10 @@ void PairLists::find_groups() {
     walls_.push_back(walls);
     first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
-  // Ghosts within the reach of a few that reach far are near nobody. The walls of a vessel may ask for any.
+  // Ghosts within the reach of a few that reach far are near nobody.
   packed_ghosts_.clear();
   for (std::size_t g = 0; g < ghosts.size(); ++g)
-    if (is_listed[g] || !neighbourhood_.vessel().is_empty()) packed_ghosts_.push_back(static_cast<std::uint32_t>(g));
+    if (is_listed[g]) packed_ghosts_.push_back(static_cast<std::uint32_t>(g));
 }
 
 /// Which neighbours load which wall. \param walls a bit for each that the images of the groups load

@@ -49,7 +49,7 @@ class PairLists {
   const std::array<Domain::Load, 3>& loads_of(std::int32_t image) const {
     return loads_of_images_[static_cast<std::size_t>(image)];
   }
-  /// The images that need records: those in a list; with a vessel, whose walls may ask for any, all.
+  /// The images that need records: those in a list.
   std::span<const std::uint32_t> packed_ghosts() const { return packed_ghosts_; }
 
  private:

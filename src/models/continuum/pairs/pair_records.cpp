@@ -129,15 +129,36 @@ void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleV
   if (!in_single || options_.always_double) pack_double(team, lists, particles, stresses);
 }
 
+void PairRecords::find_read_by_walls(const PairLists& lists, std::span<const std::uint32_t> at_walls) {
+  if (options_.precision != PairPrecision::in_single) return;
+  const Neighbourhood& neighbourhood = lists.neighbourhood();
+  const auto ghosts = neighbourhood.ghosts();
+  const std::size_t count = neighbourhood.particles();
+  std::vector<char> is_read(count + ghosts.size(), 0);
+  for (const std::uint32_t i : at_walls) {
+    is_read[i] = 1;
+    for (const std::uint32_t n : neighbourhood.of(i)) {
+      if (n == is_read.size()) continue;  // padding
+      is_read[n] = 1;
+      if (n >= count) is_read[ghosts[n - count].source] = 1;
+    }
+  }
+  wall_particles_.clear(), wall_ghosts_.clear();
+  for (std::uint32_t n = 0; n < is_read.size(); ++n)
+    if (is_read[n]) n < count ? wall_particles_.push_back(n) : wall_ghosts_.push_back(n - static_cast<std::uint32_t>(count));
+}
+
 /// Records of images are made from those of their sources. What only forces read is packed for them only.
 void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
-  const auto packed_ghosts = lists.packed_ghosts();
+  const bool are_all = options_.precision != PairPrecision::in_single;
+  const std::span<const std::uint32_t> packed_ghosts = are_all ? lists.packed_ghosts() : wall_ghosts_;
   make_room(motion_, count + ghosts.size() + 1);
   make_room(stress_, motion_.size());
-  for_each(team, count, [&](std::size_t i) {
+  for_each(team, are_all ? count : wall_particles_.size(), [&](std::size_t n) {
+    const std::size_t i = are_all ? n : wall_particles_[n];
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
     motion_[i] = {{x.x, x.y, x.z},
@@ -169,7 +190,8 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
     stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, of_source.half_density, of_source.tension};
   });
   constexpr double far_away = 1e3;  // m
-  motion_.back() = {{far_away, far_away, far_away}, count > 0 ? motion_.front().half_length : 1, {}, 0};
+  motion_.back() = {
+      {far_away, far_away, far_away}, count > 0 ? 0.5 * particles.smoothing_length.front() : 1, {}, 0};
   stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 

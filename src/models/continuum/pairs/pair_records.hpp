@@ -3,6 +3,7 @@
 /// sources.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,10 @@ class PairRecords {
   };
   explicit PairRecords(const Options& options) : options_(options) {}
 
+  /// Takes what lists the particles beside walls have: all that is packed in double precision besides single.
+  /// \param at_walls numbers of these particles
+  void find_read_by_walls(const PairLists& lists, std::span<const std::uint32_t> at_walls);
+
   /// Motion of particles and images. \param stresses whether stresses, too: only forces read them
   void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
   /// Rates of deformation, for hourglass damping, and speeds of sound, for the viscosity.
@@ -53,6 +58,7 @@ class PairRecords {
   void pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
 
   Options options_;
+  std::vector<std::uint32_t> wall_particles_, wall_ghosts_;  // of find_read_by_walls, rising
   double quantum_ = 0;  // of the places in single precision, m
   // Particles, images, padding.
   std::vector<MotionRecord> motion_;

@@ -97,6 +97,7 @@ void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> positi
   halo_ = halo;
   lists_.build(team, position, smoothing_length, margin, part);
   vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin, mass_ratio);
+  records_.find_read_by_walls(lists_, vessel_.particles());
 }
 
 /// Packing above which the density diffuses: grains that touch, and no free surface between them.

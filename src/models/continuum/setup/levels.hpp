@@ -5,7 +5,8 @@
 ///
 /// About the axis of a sector a particle is a ring with its copies, each with an arc of r times the sector's angle.
 /// Where the arc is shorter than bed.spacing, the ring of a whole particle would be wider or higher than that: there
-/// are halves, quarters and eighths of a particle, levels -1 to -3, with the smoothing length of bed.spacing.
+/// are halves, quarters and eighths of a particle, levels -1 to -3, with the smoothing length of bed.spacing. Where a
+/// coarser level may be, the arc may be half as long: nothing there decides what passes an outlet.
 ///
 /// The mass of a particle is a whole number of eighths of that of a particle of bed.spacing: splitting and merging
 /// (splitting.hpp) move whole parts, and lose none.
