@@ -213,6 +213,13 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
   }
+  const auto set_skin = [&](const char* key, double& skin, double of_levels) {
+    if (read.model.levels.count == 0 || file.contains(key)) return;
+    skin = of_levels;
+    read.filled.keys.emplace(key, "levels");
+  };
+  set_skin("integration.skin", read.model.integration.skin, continuum::skin_of_levels);
+  set_skin("integration.skin_at_rest", read.model.integration.skin_at_rest, continuum::skin_at_rest_of_levels);
   if (!file.contains("sph.viscosity_alpha")) {
     const double usual =
         std::exchange(read.model.sph.viscosity_alpha, Setup(layout.with(read.model)).default_viscosity());
@@ -266,9 +273,13 @@ struct WithoutWhatFollows {
 
   template <class T>
   void operator()(const Parameter& parameter, const T& member) {
-    static constexpr std::string_view following[] = {
-        "integration.courant", "sph.viscosity_alpha", "law.critical-state.bulk_modulus",
-        "law.critical-state.shear_modulus", "law.critical-state.reference_packing"};
+    static constexpr std::string_view following[] = {"integration.courant",
+                                                     "integration.skin",
+                                                     "integration.skin_at_rest",
+                                                     "sph.viscosity_alpha",
+                                                     "law.critical-state.bulk_modulus",
+                                                     "law.critical-state.shear_modulus",
+                                                     "law.critical-state.reference_packing"};
     if constexpr (std::is_same_v<T, double>)
       if (std::find(std::begin(following), std::end(following), parameter.key) != std::end(following))
         return parameters(parameter, std::optional<T>{});

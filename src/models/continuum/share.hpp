@@ -71,7 +71,8 @@ class Share {
   /// \param where of a particle, m; nothing: it stays
   void bring(State& state, const std::function<std::optional<Vector3>(std::size_t)>& where);
 
-  /// What a particle here costs among those of others, when space is cut again. \param pairs in the lists of this process
+  /// What a particle here costs among those of others, when space is cut again. \param pairs in the lists of this
+  /// process
   void weigh(std::size_t pairs) { work_ = std::max<std::uint64_t>(1, 1000 * pairs / std::max<std::size_t>(own_, 1)); }
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }

@@ -85,7 +85,7 @@ class RecursiveBisection final : public Partition {
     MPI_Comm_size(communicator, &size_);
     // Cuts are kept: they say whose any place is.
     constexpr const char* settings[][2] = {
-        {"LB_METHOD", "RCB"},     {"KEEP_CUTS", "1"},        {"OBJ_WEIGHT_DIM", "1"},  {"DEBUG_LEVEL", "0"},
+        {"LB_METHOD", "RCB"},     {"KEEP_CUTS", "1"},         {"OBJ_WEIGHT_DIM", "1"},  {"DEBUG_LEVEL", "0"},
         {"RETURN_LISTS", "NONE"}, {"IMBALANCE_TOL", "1.005"}, {"NUM_GID_ENTRIES", "1"}, {"NUM_LID_ENTRIES", "1"}};
     for (const auto& [key, value] : settings) check(Zoltan_Set_Param(zoltan_, key, value), "be set");
     Zoltan_Set_Num_Obj_Fn(zoltan_, count_of, &points_);

@@ -159,7 +159,8 @@ std::vector<Vector3> places(std::uint64_t seed, std::size_t count) {
 }
 
 /// The weight in the part of each process. \param weight of each of these points
-std::vector<double> weights_of_parts(const Partition& partition, std::span<const Vector3> points, std::uint64_t weight) {
+std::vector<double> weights_of_parts(const Partition& partition, std::span<const Vector3> points,
+                                     std::uint64_t weight) {
   Votes votes{
       .least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(static_cast<std::size_t>(processes().size()))};
   for (const Vector3& x : points) votes.sum[static_cast<std::size_t>(partition.rank_of(x))] += weight;
@@ -192,7 +193,8 @@ TEST(Partition, CutsThroughTheLayersOfALattice) {
     own.push_back({0.1 * (n % 9), 0.1 * (n / 9 % 9), 0.1 * (n / 81)});
   partition->cut(own, std::vector<double>(own.size(), 1.0));
   const double mean = 729.0 / processes().size();  // a layer is 81
-  for (const double weight : weights_of_parts(*partition, own, 1)) EXPECT_NEAR(weight, mean, std::max(3.0, 0.02 * mean));
+  for (const double weight : weights_of_parts(*partition, own, 1))
+    EXPECT_NEAR(weight, mean, std::max(3.0, 0.02 * mean));
 }
 
 TEST(Partition, IsTheSameForAllAndFindsThePartsOfABox) {

@@ -83,7 +83,8 @@ namespace {
 
 /// Adds what the present window has to what came before it, and begins the next one.
 void begin_window(const SurfaceFields& fields, double time, WallLoads& w) {
-  for (std::size_t n = 0; n < w.push.size(); ++n) w.push[n] = w.push_of(fields, n), w.received[n] = w.received_of(fields, n);
+  for (std::size_t n = 0; n < w.push.size(); ++n)
+    w.push[n] = w.push_of(fields, n), w.received[n] = w.received_of(fields, n);
   w.window_push.clear(), w.window_received.clear();
   w.window_start = time;
 }

@@ -145,7 +145,8 @@ void PairRecords::find_read_by_walls(const PairLists& lists, std::span<const std
   }
   wall_particles_.clear(), wall_ghosts_.clear();
   for (std::uint32_t n = 0; n < is_read.size(); ++n)
-    if (is_read[n]) n < count ? wall_particles_.push_back(n) : wall_ghosts_.push_back(n - static_cast<std::uint32_t>(count));
+    if (is_read[n])
+      n < count ? wall_particles_.push_back(n) : wall_ghosts_.push_back(n - static_cast<std::uint32_t>(count));
 }
 
 /// Records of images are made from those of their sources. What only forces read is packed for them only.
@@ -190,8 +191,7 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
     stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, of_source.half_density, of_source.tension};
   });
   constexpr double far_away = 1e3;  // m
-  motion_.back() = {
-      {far_away, far_away, far_away}, count > 0 ? 0.5 * particles.smoothing_length.front() : 1, {}, 0};
+  motion_.back() = {{far_away, far_away, far_away}, count > 0 ? 0.5 * particles.smoothing_length.front() : 1, {}, 0};
   stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 

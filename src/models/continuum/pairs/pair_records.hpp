@@ -59,7 +59,7 @@ class PairRecords {
 
   Options options_;
   std::vector<std::uint32_t> wall_particles_, wall_ghosts_;  // of find_read_by_walls, rising
-  double quantum_ = 0;  // of the places in single precision, m
+  double quantum_ = 0;                                       // of the places in single precision, m
   // Particles, images, padding.
   std::vector<MotionRecord> motion_;
   std::vector<StressRecord> stress_;

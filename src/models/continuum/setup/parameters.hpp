@@ -331,11 +331,12 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "leapfrog, 0.3 with Runge-Kutta"},
         p.integration.courant);
   visit(Parameter{"integration.skin", dimension::none, between(0, 2),
-                  "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings"},
+                  "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings; "
+                  "left out: 0.4, with levels 2"},
         p.integration.skin);
   visit(Parameter{"integration.skin_at_rest", dimension::none, between(0, 1),
                   "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
-                  "rebuilt as soon as it moves"},
+                  "rebuilt as soon as it moves; left out: 0.25, with levels 0.05"},
         p.integration.skin_at_rest);
   visit(
       Parameter{

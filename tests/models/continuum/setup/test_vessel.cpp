@@ -71,7 +71,8 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   const SurfaceFields fields = load_fields(Layout(p));
   ASSERT_EQ(s.wall_loads.push.size(), fields.count());
   std::vector<Vector3> received(p.vessel.size());
-  for (std::size_t n = 0; n < fields.count(); ++n) received[fields.all()[n].patch] += s.wall_loads.received_of(fields, n);
+  for (std::size_t n = 0; n < fields.count(); ++n)
+    received[fields.all()[n].patch] += s.wall_loads.received_of(fields, n);
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     EXPECT_LT(norm(received[n] - vessel_impulse(s)[n]), 1e-12 * norm(vessel_impulse(s)[n])) << n;
   const double top = 4 * spacing + 8 * spacing, gamma = bulk_density(p) * 9.81;
