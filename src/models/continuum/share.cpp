@@ -106,6 +106,11 @@ void Share::begin(State& s) {
   std::iota(place_.begin(), place_.end(), before);
 }
 
+void Share::weigh(std::size_t pairs) {
+  constexpr std::size_t besides = 50;  // pairs, as which the rest of a particle's step counts: about half of it
+  if (own_ > 0) work_ = 1000 * (pairs + besides * own_) / own_;
+}
+
 void Share::cut(std::span<const Vector3> points) {
   if (!partition_) partition_ = ranks_.partition();
   partition_->cut(points, std::vector<double>(points.size(), static_cast<double>(work_)));

@@ -10,7 +10,6 @@
 /// One process by itself owns all, has no halo, and the place of a particle is its number.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -73,7 +72,7 @@ class Share {
 
   /// What a particle here costs among those of others, when space is cut again. \param pairs in the lists of this
   /// process
-  void weigh(std::size_t pairs) { work_ = std::max<std::uint64_t>(1, 1000 * pairs / std::max<std::size_t>(own_, 1)); }
+  void weigh(std::size_t pairs);
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
 
