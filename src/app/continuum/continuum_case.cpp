@@ -213,13 +213,7 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
   }
-  const auto set_skin = [&](const char* key, double& skin, double of_levels) {
-    if (read.model.levels.count == 0 || file.contains(key)) return;
-    skin = of_levels;
-    read.filled.keys.emplace(key, "levels");
-  };
-  set_skin("integration.skin", read.model.integration.skin, continuum::skin_of_levels);
-  set_skin("integration.skin_at_rest", read.model.integration.skin_at_rest, continuum::skin_at_rest_of_levels);
+  set_from_levels(file, read.model, read.filled);
   if (!file.contains("sph.viscosity_alpha")) {
     const double usual =
         std::exchange(read.model.sph.viscosity_alpha, Setup(layout.with(read.model)).default_viscosity());
