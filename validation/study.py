@@ -16,12 +16,18 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
 import matplotlib  # noqa: E402
+import numpy as np  # noqa: E402
 matplotlib.use("Agg")
 
 import talus  # noqa: E402
 import talus.draw  # noqa: E402
 
 PROJECT = Path(__file__).resolve().parents[1]
+
+
+def mass_ratios(snapshot):
+    """The mass of each particle over that of one of bed.spacing."""
+    return snapshot["mass_ratio"] if "mass_ratio" in snapshot else np.ones(len(snapshot.positions))
 
 
 @dataclass

@@ -35,17 +35,13 @@ def mean_rate(run, column, begin, end):
     return 2 * (last - first) / (end - begin)
 
 
-def ratios(snapshot):
-    return snapshot["mass_ratio"] if "mass_ratio" in snapshot else np.ones(len(snapshot.positions))
-
-
 def drawn(run):
     """Share of what sinks into the slot by its quarters, from the rear."""
     sums = np.zeros(4)
     for snapshot in run.snapshots:
         if not FROM <= snapshot.time - run.gate_time <= TO:
             continue
-        x, flow = snapshot.positions, -ratios(snapshot) * snapshot["velocity"][:, 2]
+        x, flow = snapshot.positions, -study.mass_ratios(snapshot) * snapshot["velocity"][:, 2]
         inside = (x[:, 2] > 0.52) & (x[:, 2] < 0.64)
         sums += np.histogram(x[inside, 0], QUARTERS, weights=flow[inside])[0]
     return sums / sums.sum()
@@ -71,7 +67,7 @@ def draw(found):
     """The last snapshot along the plane of symmetry, by speed."""
     from matplotlib import colors, pyplot as plt
     last = found["run"].snapshots[-1]
-    x, size, speed = last.positions, 0.03 * np.cbrt(ratios(last)), np.linalg.norm(last["velocity"], axis=1)
+    x, size, speed = last.positions, 0.03 * np.cbrt(study.mass_ratios(last)), np.linalg.norm(last["velocity"], axis=1)
     shown = x[:, 1] < 0.7 * size
     figure, axis = plt.subplots(figsize=(6, 5), layout="constrained")
     marks = axis.scatter(x[shown, 0], x[shown, 2], s=(85 * size[shown]) ** 2, c=speed[shown], linewidths=0,

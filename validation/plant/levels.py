@@ -46,10 +46,6 @@ def cases(options):
             yield HERE / file, folder_of(options.out, case, levels["levels.count"]), settings | levels
 
 
-def ratios(snapshot):
-    return snapshot["mass_ratio"] if "mass_ratio" in snapshot else np.ones(len(snapshot.positions))
-
-
 def percentile(values, weights, share):
     order = np.argsort(values)
     return values[order][np.searchsorted(np.cumsum(weights[order]), share * weights.sum())]
@@ -58,7 +54,7 @@ def percentile(values, weights, share):
 def layers(run):
     """Vertical stress of the layers of the bed, Pa."""
     last = run.snapshots[-1]
-    z, volume = last.positions[:, 2], ratios(last) / last["density"]
+    z, volume = last.positions[:, 2], study.mass_ratios(last) / last["density"]
     means = []
     for low in np.arange(0, 0.128, 0.016):
         inside = (z >= low) & (z < low + 0.016)
@@ -69,7 +65,7 @@ def layers(run):
 def heap(run):
     """Front and height of the column at the end, m."""
     last = run.snapshots[-1]
-    x, mass = last.positions, ratios(last)
+    x, mass = last.positions, study.mass_ratios(last)
     beside = x[:, 0] < 0.02
     return percentile(x[:, 0], mass, 0.995), percentile(x[beside, 2], mass[beside], 0.995)
 
@@ -78,9 +74,9 @@ def comes_back(run):
     """Momentum above the change of level over that of the pulse, mean of the snapshots in which the pulse is between the
     change and the column's end. A pulse is where its momentum is."""
     first, found = run.snapshots[0], []
-    whole = (ratios(first) * first["velocity"][:, 2]).sum()
+    whole = (study.mass_ratios(first) * first["velocity"][:, 2]).sum()
     for snapshot in run.snapshots:
-        z, momentum = snapshot.positions[:, 2], ratios(snapshot) * snapshot["velocity"][:, 2]
+        z, momentum = snapshot.positions[:, 2], study.mass_ratios(snapshot) * snapshot["velocity"][:, 2]
         below = z < CHANGE
         middle = (momentum * z)[below].sum() / momentum[below].sum()
         if momentum[below].sum() / whole > 0.5 and 0.6 * PULSE < middle < CHANGE - 0.6 * PULSE:
@@ -102,7 +98,7 @@ def density_over_sum(run):
             continue
         x = snapshot.positions - (AXIS, AXIS, OUTLET)
         distance = np.hypot(np.maximum(np.hypot(x[:, 0], x[:, 1]) - 0.25, 0), x[:, 2])
-        near = (x[:, 2] > 0) & (distance > SPLIT - NEAR) & (distance < SPLIT) & (ratios(snapshot) < 3)
+        near = (x[:, 2] > 0) & (distance > SPLIT - NEAR) & (distance < SPLIT) & (study.mass_ratios(snapshot) < 3)
         means.append((snapshot["density"][near] / snapshot["packing"][near]).mean())
     return float(np.mean(means))
 
@@ -139,7 +135,7 @@ def draw(runs):
     figure, axes = plt.subplots(2, 1, figsize=(7, 3.6), sharex=True, sharey=True, layout="constrained")
     for axis, count in zip(axes, (1, 0)):
         last = runs["column", count].snapshots[-1]
-        x, size = last.positions, 4e-3 * np.cbrt(ratios(last))
+        x, size = last.positions, 4e-3 * np.cbrt(study.mass_ratios(last))
         shown = np.abs(x[:, 1] - 0.02) < 0.75 * size
         axis.scatter(1e3 * x[shown, 0], 1e3 * x[shown, 2], s=2.2 * (1e3 * size[shown]) ** 2 / 4,
                      c=np.where(size[shown] > 5e-3, "C1", "C0"), linewidths=0)

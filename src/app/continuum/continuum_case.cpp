@@ -209,11 +209,7 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
   if (!read.model.bed.file.empty())
     read.model.bed.file = std::filesystem::absolute(input_path(file, read.model.bed.file)).lexically_normal();
   set_from_bed(file, layout, read.run.end, read.model, read.filled);
-  if (!file.contains("integration.courant")) {
-    read.model.integration.courant = continuum::default_courant(read.model.integration.method);
-    read.filled.keys.emplace("integration.courant", "method");
-  }
-  set_from_levels(file, read.model, read.filled);
+  set_integration(file, read.model, read.filled);
   if (!file.contains("sph.viscosity_alpha")) {
     const double usual =
         std::exchange(read.model.sph.viscosity_alpha, Setup(layout.with(read.model)).default_viscosity());

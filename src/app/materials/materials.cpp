@@ -316,14 +316,16 @@ void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double 
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk(p.grains.material) * law.bulk_modulus);
 }
 
-void set_from_levels(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
-  const auto set = [&](const char* key, double& number, double value) {
-    if (p.levels.count == 0 || file.contains(key)) return;
+void set_integration(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
+  const auto set = [&](const char* key, double& number, double value, const char* origin) {
+    if (file.contains(key)) return;
     number = value;
-    filled.keys.emplace(key, "levels");
+    filled.keys.emplace(key, origin);
   };
-  set("integration.skin", p.integration.skin, continuum::skin_of_levels);
-  set("integration.skin_at_rest", p.integration.skin_at_rest, continuum::skin_at_rest_of_levels);
+  set("integration.courant", p.integration.courant, continuum::default_courant(p.integration.method), "method");
+  if (p.levels.count == 0) return;
+  set("integration.skin", p.integration.skin, continuum::skin_of_levels, "levels");
+  set("integration.skin_at_rest", p.integration.skin_at_rest, continuum::skin_at_rest_of_levels, "levels");
 }
 
 }  // namespace talus::app

@@ -76,9 +76,8 @@ int Levels::wanted(const Vector3& x, double slack) const {
   int level = 0;
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
   if (!sector_) return level;
-  constexpr double far_from_outlets = 2;
-  const double arc =
-      (level > 0 ? far_from_outlets : 1) * sector_->radius(x) * angle_of(*sector_) / (slack * spacing_.x);
+  constexpr double when_coarse = 2;  // as so much longer an arc counts where nothing decides what passes an outlet
+  const double arc = (level > 0 ? when_coarse : 1) * sector_->radius(x) * angle_of(*sector_) / (slack * spacing_.x);
   while (level > lightest_level && arc < std::ldexp(1.0, level)) --level;
   return level;
 }
