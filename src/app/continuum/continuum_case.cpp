@@ -265,7 +265,6 @@ struct WithoutWhatFollows {
   void operator()(const Parameter& parameter, const T& member) {
     static constexpr std::string_view following[] = {"integration.courant",
                                                      "integration.skin",
-                                                     "integration.skin_at_rest",
                                                      "sph.viscosity_alpha",
                                                      "law.critical-state.bulk_modulus",
                                                      "law.critical-state.shear_modulus",

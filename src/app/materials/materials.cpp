@@ -323,9 +323,7 @@ void set_integration(const CaseFile& file, continuum::Parameters& p, FilledIn& f
     filled.keys.emplace(key, origin);
   };
   set("integration.courant", p.integration.courant, continuum::default_courant(p.integration.method), "method");
-  if (p.levels.count == 0) return;
-  set("integration.skin", p.integration.skin, continuum::skin_of_levels, "levels");
-  set("integration.skin_at_rest", p.integration.skin_at_rest, continuum::skin_at_rest_of_levels, "levels");
+  if (p.levels.count > 0) set("integration.skin", p.integration.skin, continuum::skin_of_levels, "levels");
 }
 
 }  // namespace talus::app

@@ -84,7 +84,7 @@ double shear_over_bulk(std::optional<continuum::GrainMaterial> material);
 /// that they do not touch. \param parameters as read \param end of the run, s
 void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& parameters,
                   FilledIn& filled);
-/// The Courant number by the method, and the margins of lists by the levels, where the case gives none.
+/// The Courant number by the method, and the skin of lists by the levels, where the case gives none.
 void set_integration(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------

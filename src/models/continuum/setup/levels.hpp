@@ -56,9 +56,9 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
 }
 
-/// integration.skin and integration.skin_at_rest of cases with levels that leave them out: grains of bed.spacing that
-/// fall below an outlet would have all lists built every few steps, and coarse ones at rest need little.
-constexpr double skin_of_levels = 2, skin_at_rest_of_levels = 0.05;
+/// integration.skin of cases with levels that leave it out: grains of bed.spacing that fall below an outlet would have
+/// all lists built every few steps.
+constexpr double skin_of_levels = 2;
 
 constexpr int lightest_level = -3;  // an eighth, parts_of_mass
 

@@ -336,7 +336,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.skin);
   visit(Parameter{"integration.skin_at_rest", dimension::none, between(0, 1),
                   "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
-                  "rebuilt as soon as it moves; left out: 0.25, with levels 0.05"},
+                  "rebuilt as soon as it moves"},
         p.integration.skin_at_rest);
   visit(
       Parameter{
