@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/discharge.hpp"
 
+#include <fftw3.h>
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -94,26 +98,27 @@ Curve power_spectrum(const Curve& curve, double least, double most) {
   const double n = static_cast<double>(count);
   const double interval = (curve.time.back() - curve.time.front()) / (n - 1);
   const Line line = fit_line(curve.time, curve.value);
-  std::vector<double> tapered;
+  constexpr std::size_t padded = 4;  // times as long, with zeros
+  std::vector<double> tapered(padded * count, 0.0);
   double window_sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double window = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(k) / n);
     window_sum += window;
-    tapered.push_back(window * (curve.value[k] - line.intercept - line.slope * curve.time[k]));
+    tapered[k] = window * (curve.value[k] - line.intercept - line.slope * curve.time[k]);
   }
+  std::vector<std::complex<double>> spectrum(tapered.size() / 2 + 1);
+  const std::unique_ptr<fftw_plan_s, decltype(&fftw_destroy_plan)> plan(
+      fftw_plan_dft_r2c_1d(static_cast<int>(tapered.size()), tapered.data(),
+                           reinterpret_cast<fftw_complex*>(spectrum.data()), FFTW_ESTIMATE),
+      fftw_destroy_plan);
+  fftw_execute(plan.get());
 
   Curve power;
-  const double step = 1 / (4 * n * interval);
-  for (double multiple = std::ceil(least / step); multiple * step <= most; ++multiple) {
-    const double frequency = multiple * step;
-    double even = 0, odd = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const double phase = 2 * std::numbers::pi * frequency * interval * static_cast<double>(k);
-      even += tapered[k] * std::cos(phase);
-      odd += tapered[k] * std::sin(phase);
-    }
-    power.time.push_back(frequency);
-    power.value.push_back((even * even + odd * odd) / (window_sum * window_sum));
+  const double step = 1 / (padded * n * interval);
+  for (auto k = static_cast<std::size_t>(std::ceil(least / step));
+       k < spectrum.size() && static_cast<double>(k) * step <= most; ++k) {
+    power.time.push_back(static_cast<double>(k) * step);
+    power.value.push_back(std::norm(spectrum[k]) / (window_sum * window_sum));
   }
   return power;
 }

@@ -41,8 +41,7 @@ Curve at_equal_times(const Curve& curve, double rate, double from, double to);
 
 /// Power of a curve at equal times after its least-squares line was taken from it, with a Hann window, at frequencies a
 /// quarter of its own resolution 1/T apart (zero-padded four times) from `least` to `most`: |sum|^2 over the square of
-/// the window's sum, so that a sinusoid of amplitude A far from both ends has a peak of A^2/4. As the plain sums: a
-/// thousand data and some hundred frequencies do not need a fast transform.
+/// the window's sum, so that a sinusoid of amplitude A far from both ends has a peak of A^2/4.
 /// \param least, most frequencies, 1/s, below half the rate of the data; the times of the result are the frequencies
 /// \throws std::invalid_argument for fewer than four data
 Curve power_spectrum(const Curve& curve, double least, double most);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/discharge.hpp"
+#include "analysis/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,24 @@ TEST(Spectrum, PeakIsAQuarterOfTheAmplitudesSquare) {
   const Curve power = power_spectrum(curve, 40, 60);
   EXPECT_NEAR(extremes(power).max, 9.0 / 4, 1e-3);
   EXPECT_NEAR(extremes(power).max_time, 50, 1e-9);
+}
+
+TEST(Spectrum, IsThePlainSum) {
+  const Curve curve = sampled(100, 0.37, [](double t) { return std::cos(30 * t) + 5 * t * t; });
+  const double n = static_cast<double>(curve.time.size());
+  const Line line = fit_line(curve.time, curve.value);
+  const Curve power = power_spectrum(curve, 3, 40);
+  ASSERT_GT(power.time.size(), 50u);
+  for (std::size_t f = 0; f < power.time.size(); ++f) {
+    double even = 0, odd = 0, sum = 0;
+    for (std::size_t k = 0; k < curve.time.size(); ++k) {
+      const double window = 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(k) / n), t = curve.time[k];
+      const double left = window * (curve.value[k] - line.intercept - line.slope * t);
+      even += left * std::cos(2 * pi * power.time[f] * t), odd += left * std::sin(2 * pi * power.time[f] * t);
+      sum += window;
+    }
+    EXPECT_NEAR(power.value[f], (even * even + odd * odd) / (sum * sum), 1e-14);
+  }
 }
 
 TEST(Spectrum, TakesTheHigherOfTwoPeaksWithinTheBand) {
