@@ -48,9 +48,9 @@ double last(const Run& run, const char* column) {
   return run.series.has(column) ? run.series.column(column).back() : 0;
 }
 
-/// M and what has come since, less what has gone.
-double mass_expected(const Run& run) {
-  return run.setting.mass() + last(run, "fed_mass") - last(run, "removed_mass");
+double mass_error(const Run& run, const Window& window) {
+  const double of_all = run.setting.mass() + last(run, "fed_mass");
+  return std::abs((value_at_window(mass, run, window) + last(run, "removed_mass")) / of_all - 1);
 }
 
 const std::vector<Row> of_grains = {
@@ -153,9 +153,8 @@ const std::vector<Row> of_grains = {
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",
         {[](const Run& r, const Window&) { return momentum_error(r.series); }}, {always}),
-    Row("mass_error", "1", "|mass of all particles over M, and what inlets fed less what was removed, − 1|",
-        {[](const Run& r, const Window& w) { return std::abs(value_at_window(mass, r, w) / mass_expected(r) - 1); }},
-        {always}),
+    Row("mass_error", "1", "|mass of all particles and of what was removed over M and what inlets fed, − 1|",
+        {mass_error}, {always}),
     Row("fed_mass", "kg", "mass that came in through inlets, to the end of the run",
         {[](const Run& r, const Window&) { return last(r, "fed_mass"); }}, {comes_or_goes}),
     Row("removed_mass", "kg", "mass that was taken away, to the end of the run",

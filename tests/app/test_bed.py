@@ -211,6 +211,7 @@ class NoParticles(BedTest):
         summary = json.loads((self.folder / "run/summary.json").read_text())
         self.assertEqual(summary["status"], "done")
         self.assertAlmostEqual(float(last["removed_mass [kg]"]), 0.6 * 2650 * 1.2e-2 * 3.1416 * 0.016**2, delta=2e-3)
+        self.assertLess(summary["quantities"]["mass_error"]["value"], 1e-12)
         newest = sorted((self.folder / "run/snapshots").glob("particles_*.vtkhdf"))[-1]
         with h5py.File(newest) as file:
             self.assertEqual(file["VTKHDF/Points"].shape, (0, 3))
