@@ -23,7 +23,7 @@ using continuum::Accuracy;
 constexpr int copies[] = {18, 15, 12, 10, 9, 8, 6, 5, 4};  // narrower sectors cost more: all their copies meet
 constexpr double across_outlet[] = {8, 12, 20};            // particles, by Accuracy
 constexpr double trial_spacings[] = {25, 50, 100, 200};    // on the width of the box, while the outlet is not known
-constexpr int max_levels = 1;                              // coarser ones arch over an outlet of twelve of the finest
+constexpr int max_levels[] = {2, 1, 0};                    // by Accuracy: coarser particles bear walls too roughly
 constexpr std::int64_t across_vessel = 16;                 // of the coarsest particles, at least
 constexpr const char* option = "accuracy";
 
@@ -76,10 +76,10 @@ CaseFile with_sector(const CaseFile& file, const ReadSetup& read) {
   return file;
 }
 
-/// With as many levels as leave enough particles across the bed; without any where particles of several sizes cannot
-/// be.
-CaseFile with_levels(const CaseFile& file, const ReadSetup& read) {
-  for (int levels = max_levels; levels > 0; --levels) try {
+/// With as many levels, up to some, as leave enough particles across the bed; without any where particles of several
+/// sizes cannot be.
+CaseFile with_levels(const CaseFile& file, int max, const ReadSetup& read) {
+  for (int levels = max; levels > 0; --levels) try {
       CaseFile changed = with(file, fmt::format("levels.count={}", levels));
       const auto setup = read(changed);
       const auto& count = setup->lattice.count;
@@ -118,7 +118,8 @@ CaseFile with_accuracy(const CaseFile& file, const ReadSetup& read) {
   }
   if (*accuracy != Accuracy::reference && !file.contains("box.sector") && file.tables("vessel") > 0)
     changed = with_sector(changed, read);
-  if (*accuracy != Accuracy::reference && !file.contains("levels.count")) changed = with_levels(changed, read);
+  if (!file.contains("levels.count"))
+    changed = with_levels(changed, max_levels[static_cast<std::size_t>(*accuracy)], read);
   return changed;
 }
 

@@ -81,7 +81,7 @@ double mean_share_present(const Setup& setup, double end) {
   const double rate = discharge_by_hand(setup);
   if (!(rate > 0) || !p.inlets.empty() || !(p.removal.below || p.box.floor == FaceKind::open)) return 1;
   const double emptied = setup.lattice.mass * continuum::bed_count(setup) * setup.copies / rate;
-  return emptied < end ? 0.5 * emptied / end : 1 - 0.5 * end / emptied;
+  return continuum::mean_share_while_emptying(setup, end / emptied);
 }
 
 Forecast forecast(const Setup& setup, const run::RunParameters& run) {
@@ -116,17 +116,17 @@ double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& t
 }
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
-/// walls of its vessel by larger particles in it. With levels, as many particles of one size.
+/// walls of its vessel by larger particles in it: with levels, as many particles of one size.
 double measure_step(const std::shared_ptr<const Setup>& given, double end, ThreadTeam& team) {
+  constexpr double most = 8000;
   Parameters of_one_size = given->given;
   of_one_size.levels = {};
   const auto setup = given->given.levels.count > 0 ? std::make_shared<const Setup>(given->with(of_one_size)) : given;
-  constexpr double most = 8000;
   const auto in_sample = [&] { return measure_particle(std::make_shared<Setup>(sample(*setup, most)), team); };
   if (setup->has_no_bed()) return 0.5 * continuum::forecast(*setup, end).particles * in_sample();  // half comes in
   const double count = continuum::bed_count(*setup);
   const double share = continuum::share_of_particles(*given);
-  if (count <= most) return share * count * measure_particle(setup, team);
+  if (share * count <= most) return share * count * measure_particle(given, team);
   const double inside = in_sample();
   if (setup->given.vessel.empty()) return share * count * inside;
   const auto coarse = std::make_shared<Setup>(continuum::coarser(*setup, most));

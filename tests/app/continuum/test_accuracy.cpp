@@ -107,6 +107,8 @@ TEST(Accuracy, TakesCoarserParticlesWhereTheBedIsWideEnough) {
   EXPECT_EQ(of(silo(), "levels.count"), Found("0", "default"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=2 mm"}), "levels.count"), Found("1", "accuracy"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm"}), "levels.count"), Found("1", "accuracy"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "accuracy=draft"}), "levels.count"), Found("2", "accuracy"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=2 mm", "accuracy=draft"}), "levels.count"), Found("1", "accuracy"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "levels.count=0"}), "levels.count"), Found("0", "option"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "accuracy=reference"}), "levels.count"), Found("0", "default"));
 }

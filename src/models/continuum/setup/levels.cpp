@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "models/continuum/setup/layout.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -40,6 +41,13 @@ double angle_of(const Sector& sector) {
   return 2 * std::numbers::pi / sector.copies();
 }
 
+/// levels.distance, m; nothing if it is left out and no outlet has a width.
+std::optional<double> distance_of(const Layout& layout) {
+  const LevelParameters& levels = layout.given.levels;
+  if (levels.distance || !layout.outlet_width) return levels.distance;
+  return static_cast<double>(levels.count) * *layout.outlet_width;
+}
+
 }  // namespace
 
 bool splits_at_axis(const Parameters& p) {
@@ -53,7 +61,7 @@ bool has_several_masses(const Parameters& p) {
 
 Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.levels.count)) {
   if (!has_several_masses(layout.given)) return;
-  distance_ = layout.given.levels.distance.value_or(layout.outlet_width.value_or(0));
+  distance_ = distance_of(layout).value_or(0);
   for (const auto& [low, high] : fine_boxes(layout)) regions_.push_back({low, high});
   const Lattice& lattice = layout.lattice;
   sector_ = layout.sector(), corner_ = lattice.corner, spacing_ = lattice.spacing;
@@ -111,20 +119,44 @@ double Levels::places_in_ring(std::int64_t ring) const {
   return std::max(1.0, std::round((static_cast<double>(ring) + 0.5) * angle_of(*sector_)));
 }
 
-double share_of_particles(const Layout& layout) {
-  const Levels levels(layout);
-  if (!has_several_masses(layout.given) || layout.has_no_bed()) return 1;
+namespace {
+
+/// Height, m, and particles for each of those of bed.spacing, of places of the bed: of coarser ones where it has many.
+std::vector<std::pair<double, double>> particles_by_height(const Layout& layout) {
   constexpr double max_tried = 1e5;
   if (const double count = bed_count(layout); count > max_tried) {
     Parameters coarser = layout.given;
-    if (!coarser.levels.distance) coarser.levels.distance = layout.outlet_width;
+    coarser.levels.distance = distance_of(layout);
     coarser.bed.spacing *= std::cbrt(2 * count / max_tried);
-    return share_of_particles(Layout(coarser));
+    return particles_by_height(Layout(coarser));
   }
+  const Levels levels(layout);
+  std::vector<std::pair<double, double>> particles;
+  for (const Vector3& x : bed_positions(layout))
+    particles.emplace_back(x.z, 1 / mass_ratio_of(levels.wanted(x, Levels::slack_of_merging)));
+  std::sort(particles.begin(), particles.end());
+  return particles;
+}
+
+}  // namespace
+
+double share_of_particles(const Layout& layout) {
+  if (!has_several_masses(layout.given) || layout.has_no_bed()) return 1;
   double sum = 0;
-  const std::vector<Vector3> positions = bed_positions(layout);
-  for (const Vector3& x : positions) sum += 1 / mass_ratio_of(levels.wanted(x, Levels::slack_of_merging));
-  return positions.empty() ? 1 : sum / static_cast<double>(positions.size());
+  const auto particles = particles_by_height(layout);
+  for (const auto& [height, count] : particles) sum += count;
+  return particles.empty() ? 1 : sum / static_cast<double>(particles.size());
+}
+
+double mean_share_while_emptying(const Layout& layout, double end) {
+  if (layout.given.levels.count == 0) return end < 1 ? 1 - 0.5 * end : 0.5 / end;
+  double sum = 0, of_all = 0, above = 1;
+  const auto particles = particles_by_height(layout);
+  for (const auto& [height, count] : particles) {
+    sum += count * std::min(end, above) / end, of_all += count;
+    above -= 1 / static_cast<double>(particles.size());
+  }
+  return of_all > 0 ? sum / of_all : 1;
 }
 
 namespace {
@@ -167,7 +199,7 @@ std::vector<Problem> check_levels(const Layout& layout) {
   const Parameters& p = layout.given;
   if (p.levels.count == 0) return {};
   Refusals refuse;
-  const bool has_box = p.levels.low && p.levels.high, is_near_outlet = layout.outlet_width || p.levels.distance;
+  const bool has_box = p.levels.low && p.levels.high, is_near_outlet = distance_of(layout).has_value();
   refuse(!layout.outlet && !has_box, "levels.count", "there is no outlet near which particles could be fine",
          "0, or a box of levels.low and levels.high");
   refuse((layout.outlet || has_box) && !is_near_outlet, "levels.distance", "left out, and no outlet has a width",

@@ -31,7 +31,7 @@ struct Parameters;
 
 struct LevelParameters {
   std::int64_t count = 0;          ///< of levels coarser than bed.spacing
-  std::optional<double> distance;  ///< of the first of them, m; left out: the width of the outlet
+  std::optional<double> distance;  ///< of the first of them, m; left out: count times the width of the outlet
   std::optional<std::array<double, 3>> low, high;
 };
 
@@ -45,8 +45,8 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   auto coarser = only_if({"levels.count", "is 0", "above 0", levels.count > 0}, visit);
   coarser(Parameter{"levels.distance", dimension::length, above(0),
                     "distance from the outlets and from the box of levels.low and levels.high within which particles "
-                    "have bed.spacing; those of the next size lie up to twice this distance, and so on; left out: the "
-                    "width of the outlet"},
+                    "have bed.spacing; those of the next size lie up to twice this distance, and so on; left out: "
+                    "levels.count times the width of the outlet"},
           levels.distance);
   coarser(Parameter{"levels.low",
                     dimension::length,
@@ -115,6 +115,10 @@ class Levels {
 /// How many particles there are at the start for each of those of bed.spacing: the mean over the bed of one over the
 /// mass ratio that is wanted.
 double share_of_particles(const Layout& layout);
+
+/// Share of the particles of the start that are there in the mean until `end`, in times in which the bed empties at a
+/// constant rate, what is highest first: finer ones near an outlet stay the longest.
+double mean_share_while_emptying(const Layout& layout, double end);
 
 /// What levels of a case cannot be, by its keys alone, and in its layout if that is sound.
 std::vector<Problem> check_levels(const Parameters& parameters);

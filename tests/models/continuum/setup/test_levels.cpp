@@ -84,6 +84,19 @@ TEST(Levels, FewerParticlesAreForeseenAsTheyAreLaid) {
   EXPECT_LT(laid, 0.6 * bed_count(setup));
 }
 
+TEST(Levels, FinerParticlesNearAnOutletStayTheLongestWhileABedEmpties) {
+  Parameters p = bed_of_levels(0);
+  EXPECT_DOUBLE_EQ(mean_share_while_emptying(setup_of(p), 2), 0.25);
+  EXPECT_DOUBLE_EQ(mean_share_while_emptying(setup_of(p), 0.5), 0.75);
+  p = bed_of_levels(1);
+  (*p.levels.low)[2] = 0, (*p.levels.high)[2] = 2 * spacing;
+  const auto below = setup_of(p);
+  EXPECT_GT(mean_share_while_emptying(below, 2), 0.3);
+  EXPECT_LT(mean_share_while_emptying(below, 2), 0.5);
+  EXPECT_GT(mean_share_while_emptying(below, 0.5), mean_share_while_emptying(below, 2));
+  EXPECT_NEAR(mean_share_while_emptying(below, 1e-6), 1, 1e-6);
+}
+
 TEST(Levels, WhatCannotBeIsNamed) {
   const auto keys = [](const Parameters& p) {
     std::vector<std::string> found;
