@@ -131,11 +131,12 @@ std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& field
         Heights& e = extent[static_cast<std::uint32_t>(n)];
         e.low = std::min(e.low, x.z), e.high = std::max(e.high, x.z);
       }
+  const double min_height = height_of_band * std::ldexp(p.bed.spacing, static_cast<int>(p.levels.count));
   std::vector<LoadBand> bands;
   std::vector<std::size_t> first;
   for (const auto& [patch, heights] : extent) {
     const double low = heights.low, extent_up = heights.high - low;
-    const long count = std::clamp(std::lround(std::floor(extent_up / (height_of_band * p.bed.spacing))), 1L, max_bands);
+    const long count = std::clamp(std::lround(std::floor(extent_up / min_height)), 1L, max_bands);
     first.push_back(bands.size());
     for (long k = 0; k < count; ++k) {
       const auto height = [&](long border) {

@@ -87,7 +87,8 @@ struct LoadBand {
   std::vector<std::uint32_t> fields;
 };
 
-/// The bands of all patches, each four spacings high at least, twelve of a patch at most; a level patch is one.
+/// The bands of all patches, each four spacings of the coarsest level high at least, twelve of a patch at most; a level
+/// patch is one.
 std::vector<LoadBand> load_bands(const Parameters& parameters, const SurfaceFields& fields);
 
 /// What each band received since the start: "normal_impulse_NAME", pressing on it, and but for level ones

@@ -78,6 +78,9 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   const double top = 4 * spacing + 8 * spacing, gamma = bulk_density(p) * 9.81;
   const auto bands = load_bands(p, fields);
   ASSERT_EQ(bands.size(), 4 * 4 + 1u) << "16 spacings high: four bands of four";
+  Parameters coarser = p;
+  coarser.levels.count = 1;
+  EXPECT_EQ(load_bands(coarser, fields).size(), 4 * 2 + 1u) << "eight spacings are four of the coarsest";
   EXPECT_EQ(bands[0].name, "west.1");
   EXPECT_EQ(bands.back().name, "bottom");
   EXPECT_TRUE(bands.back().is_level());
