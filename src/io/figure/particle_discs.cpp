@@ -29,18 +29,17 @@ std::vector<Colour> colours_of(const ParticlePicture& picture) {
   return colours;
 }
 
-/// The order in which the discs are laid on each other.
+/// The order in which the discs are laid on each other: nearer ones on farther ones, in a section smaller ones on
+/// larger ones.
 std::vector<std::size_t> order_of(const ParticlePicture& picture) {
   std::vector<std::size_t> order(picture.positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (picture.depth) {
-    std::vector<double> depth(order.size());
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-      depth[i] = dot(picture.view.toward, picture.positions[i]);
-      if (!std::isfinite(depth[i])) depth[i] = 0;  // not drawn; a NaN would leave no order
-    }
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+  std::vector<double> above(order.size());
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    above[i] = picture.depth ? dot(picture.view.toward, picture.positions[i]) : -picture.radii[i];
+    if (!std::isfinite(above[i])) above[i] = 0;  // not drawn; a NaN would leave no order
   }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return above[a] < above[b]; });
   return order;
 }
 

@@ -124,6 +124,19 @@ TEST(ParticlePicture, NearerParticlesCoverFartherOnesWhichArePaler) {
   EXPECT_LT(difference(far_one, mix(blue, white, 0.5)), 0.005);
 }
 
+TEST(ParticlePicture, ASectionShowsSmallerParticlesOnLargerOnes) {
+  for (const bool small_first : {true, false}) {
+    const std::vector<double> radii = small_first ? std::vector{0.1, 0.4} : std::vector{0.4, 0.1};
+    Scene scene({{1, 0.5, 0}, {1, 0.5, 0}}, radii);
+    scene.picture.colouring = ByValue{.values = radii, .low = 0.1, .high = 0.4};
+    Scene alone({{1, 0.5, 0}}, {0.1});
+    const std::vector<double> value = {0.1};
+    alone.picture.colouring = ByValue{.values = value, .low = 0.1, .high = 0.4};
+    const Picture both = scene.drawn(), of_small = alone.drawn();
+    EXPECT_EQ(both.at(100, 50), of_small.at(100, 50)) << small_first;
+  }
+}
+
 TEST(ParticlePicture, ParticlesThatAreNowhereAreSkipped) {
   Scene one({{0.5, 0.5, 0}}, {0.2});
   Scene with_nan({{0.5, 0.5, 0}, {nan, 0.2, 0}, {1.5, 0.5, 0}}, {0.2, 0.1, nan});
