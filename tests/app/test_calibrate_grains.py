@@ -198,6 +198,15 @@ class FromBeads(ProgramTest):
         self.assertEqual(process.returncode, 130)
         self.assertFalse((self.folder / "my-grains.toml").exists())
 
+    def test_two_calibrations_into_one_folder_are_refused(self):
+        process = self.start("--grains", "beads.toml", "--quick", "--jobs", "1", "--out", "my-grains.toml")
+        while not self.jobs():
+            time.sleep(0.01)
+        self.assertRegex(self.calibrate("--out", "my-grains.toml", status=2), "my-grains: another command computes in this folder")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+        self.calibrate("--out", "my-grains.toml")
+
     def test_lammps_that_fails_or_is_missing_is_named(self):
         self.place("lmp", "#!/bin/sh\necho 'ERROR: Lost atoms'\necho 'Last command: run'\nexit 1\n")
         self.assertRegex(self.calibrate("--out", "my-grains.toml", status=3), r"dilate-\w+: LAMMPS failed: ERROR: Lost atoms")

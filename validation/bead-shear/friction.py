@@ -24,6 +24,7 @@ from talus.measures import Window, measures_of  # noqa: E402
 HOPPER = HERE.parent / "dem-hopper"
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 TABLE = HERE / "data" / "friction.csv"
+DEPTH = 2e-3  # m, of hopper.toml
 BEADS = """[beads]
 diameter = "2 mm"
 density = "2500 kg/m3"
@@ -79,9 +80,9 @@ def cases(options):
 
 def discharge(run):
     """kg/s in 5 mm, as the tables of the beads have it."""
-    time, begin_end = np.asarray(run.series["time"]) - run.gate_time, REFERENCE["window"]
-    mass = np.interp(begin_end, time, np.asarray(run.series["mass_outside"]))
-    return (mass[1] - mass[0]) / (begin_end[1] - begin_end[0]) * 5e-3 / run.case["box"]["depth"]
+    time, (begin, end) = np.asarray(run.series["time"]) - run.gate_time, REFERENCE["window"]
+    during = (time >= begin) & (time <= end)
+    return np.asarray(run.series["discharge_rate"])[during].mean() * 5e-3 / DEPTH
 
 
 def measure(options):

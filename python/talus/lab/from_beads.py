@@ -86,10 +86,16 @@ def dense_runs(jobs):
 
 
 def run_all(plan, beads, folder, at_once):
+    """Runs what is not done, and is alone in the folder while it does."""
+    ask("claim", folders=[folder], files=[])
+    with lammps.alone_in(folder):
+        return run_in(plan, beads, folder, at_once)
+
+
+def run_in(plan, beads, folder, at_once):
     """What was computed: runs of dense packings, rows of (packing, state), slopes at which layers start, or the largest tried,
     and frictions by wall."""
     first, others = jobs_of(plan, beads, folder)
-    ask("claim", folders=[folder], files=[])
     interruption, rest = Interruption(), others(0.58, 0.4)
     members = [job for group in (*rest[:3], *rest[3].values()) for job in group]
     say(f"{len(first) + len(members)} runs by LAMMPS in {folder}, {at_once} at a time")

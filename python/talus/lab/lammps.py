@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Discrete elements: jobs of LAMMPS, each in a folder of its own, which is done or made again."""
+import contextlib
+import fcntl
 import hashlib
 import shutil
 from pathlib import Path
@@ -8,7 +10,7 @@ from typing import NamedTuple
 from talus.ask import ProgramFault, find_project
 from talus.lab import jobs
 from talus.lab.command import INTERRUPTED, NOT_MET, NUMERICAL
-from talus.trouble import RunError
+from talus.trouble import InputError, RunError, problem
 
 
 class Job(NamedTuple):
@@ -54,6 +56,17 @@ def job(folder, name, cost, **variables):
     path = script(name)
     text = path.read_text(encoding="utf-8") + repr(sorted((key, f"{value:g}") for key, value in variables.items()))
     return Job(path, variables, Path(folder) / f"{path.stem}-{hashlib.sha256(text.encode()).hexdigest()[:12]}", cost)
+
+
+@contextlib.contextmanager
+def alone_in(folder):
+    """While it lasts, no other command computes in the folder. Raises InputError if one does."""
+    with open(Path(folder) / ".lock", "w", encoding="utf-8") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise InputError([problem(folder, "another command computes in this folder", allowed="--out for another one")]) from error
+        yield
 
 
 def run(members, at_once, interruption=False, later=0):
