@@ -78,8 +78,10 @@ def comes_back(run):
     for snapshot in run.snapshots:
         z, momentum = snapshot.positions[:, 2], study.mass_ratios(snapshot) * snapshot["velocity"][:, 2]
         below = z < CHANGE
+        if not momentum[below].sum() / whole > 0.5:
+            continue
         middle = (momentum * z)[below].sum() / momentum[below].sum()
-        if momentum[below].sum() / whole > 0.5 and 0.6 * PULSE < middle < CHANGE - 0.6 * PULSE:
+        if 0.6 * PULSE < middle < CHANGE - 0.6 * PULSE:
             found.append(momentum[~below].sum() / whole)
     return float(np.mean(found))
 
