@@ -352,7 +352,7 @@ void add_calibrate_command(CLI::App& app, Action& action) {
       ->type_name("steel=FILE")
       ->allow_extra_args(false);
   command->add_option("--repose", options->text, "angle of a poured heap, 18 to 42 deg");
-  command->add_option("--grains", options->text, "beads: an hour of processor time")->type_name("BEADS.toml");
+  command->add_option("--grains", options->text, "beads: more than an hour of processor time")->type_name("BEADS.toml");
   command->add_flag("--quick", options->flag, "smaller cells of beads, in ten minutes: wider intervals");
   add_jobs_option(*command, *options);
   command->add_option("--bulk-density", options->text, "of the bed; with --shear-cell that of its file if not given");

@@ -45,7 +45,7 @@ def material_of(friction):
 
 def make(runs):
     """Hoppers of beads, and the laws of the beads."""
-    hoppers = [runs / f"friction-{friction:g}" for friction in REFERENCE["frictions"]]
+    hoppers = [runs / f"beads-{friction:g}" for friction in REFERENCE["frictions"]]
     for friction, hopper in zip(REFERENCE["frictions"], hoppers):
         subprocess.run([HOPPER / "run.py", hopper, "--diameter", "2e-3", "--friction", f"{friction}", "--rolling", "0.2", "--end", "0.4"],
                        check=True)
@@ -57,7 +57,8 @@ def make(runs):
         material_of(friction).write_text(made.read_text(encoding="utf-8"), encoding="utf-8")
     subprocess.run([HOPPER / "coarse_grain.py", *hoppers, "--out", runs / "tables"], check=True)
     with open(runs / "tables" / "numbers.csv", encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["quantity"].startswith(("discharge_rate", "surface_height"))]
+        rows = [row for row in csv.DictReader(file) if row["quantity"].startswith(("discharge_rate", "surface_height"))
+                and row["value"] != "nan"]
     with open(TABLE, "w", encoding="utf-8", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(["friction", "quantity", "place", "time_s", "unit", "value"])
@@ -80,9 +81,8 @@ def cases(options):
 
 def discharge(run):
     """kg/s in 5 mm, as the tables of the beads have it."""
-    time, (begin, end) = np.asarray(run.series["time"]) - run.gate_time, REFERENCE["window"]
-    during = (time >= begin) & (time <= end)
-    return np.asarray(run.series["discharge_rate"])[during].mean() * 5e-3 / DEPTH
+    time, window = np.asarray(run.series["time"]) - run.gate_time, REFERENCE["window"]
+    return np.diff(np.interp(window, time, np.asarray(run.series["discharged_mass"])))[0] / np.diff(window)[0] * 5e-3 / DEPTH
 
 
 def measure(options):
