@@ -24,7 +24,7 @@ CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
 LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
                   "levels.high": ["112 mm", "64 mm", "100 mm"]},
-          "column": {"levels.count": 1, "levels.distance": "20 mm", "levels.low": ["180 mm", "0 mm", "0 mm"],
+          "column": {"levels.count": 1, "levels.distance": "20 mm", "levels.low": ["100 mm", "0 mm", "0 mm"],
                      "levels.high": ["240 mm", "40 mm", "40 mm"]},
           "slit": {"levels.count": 1},
           "finer": {"levels.count": 1, "levels.distance": "1 mm", "levels.low": ["0 mm", "0 mm", "0 mm"],
@@ -33,7 +33,8 @@ LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": [
                       "levels.high": ["48 mm", "48 mm", "720 mm"]},
           "silo": {"levels.count": 1}}
 CHANGE, PULSE = 0.32, 0.16  # height where the level changes; length of the pulse, m
-BEHIND, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.5, 0.1, 0.96665, 1.0  # s; m from the outlet's rim; m; m; m
+SPACING = 4e-3  # of the column, m
+BEHIND, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.75, 0.1, 0.96665, 1.0  # s; m from the outlet's rim; m; m; m
 
 
 def folder_of(out, case, count):
@@ -63,11 +64,12 @@ def layers(run):
 
 
 def heap(run):
-    """Front and height of the column at the end, m."""
+    """Front and height of the column at the end, by the outer edges of its particles, m."""
     last = run.snapshots[-1]
     x, mass = last.positions, study.mass_ratios(last)
+    half = 0.5 * SPACING * np.cbrt(mass)
     beside = x[:, 0] < 0.02
-    return percentile(x[:, 0], mass, 0.995), percentile(x[beside, 2], mass[beside], 0.995)
+    return percentile(x[:, 0] + half, mass, 0.995), percentile((x[:, 2] + half)[beside], mass[beside], 0.995)
 
 
 def comes_back(run):
@@ -137,10 +139,10 @@ def draw(runs):
     figure, axes = plt.subplots(2, 1, figsize=(7, 3.6), sharex=True, sharey=True, layout="constrained")
     for axis, count in zip(axes, (1, 0)):
         last = runs["column", count].snapshots[-1]
-        x, size = last.positions, 4e-3 * np.cbrt(study.mass_ratios(last))
+        x, size = last.positions, SPACING * np.cbrt(study.mass_ratios(last))
         shown = np.abs(x[:, 1] - 0.02) < 0.75 * size
         axis.scatter(1e3 * x[shown, 0], 1e3 * x[shown, 2], s=2.2 * (1e3 * size[shown]) ** 2 / 4,
-                     c=np.where(size[shown] > 5e-3, "C1", "C0"), linewidths=0)
+                     c=np.where(size[shown] > 1.2 * SPACING, "C1", "C0"), linewidths=0)
         axis.set(aspect="equal", ylabel="height, mm", title="two sizes" if count else "one size")
     axes[-1].set(xlabel="distance, mm", xlim=(0, 420), ylim=(0, 125))
     return figure

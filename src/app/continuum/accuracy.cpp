@@ -13,6 +13,7 @@
 #include "io/parameter_value.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/setup/choices.hpp"
+#include "models/continuum/setup/forecast.hpp"
 
 namespace talus::app {
 
@@ -76,14 +77,37 @@ CaseFile with_sector(const CaseFile& file, const ReadSetup& read) {
   return file;
 }
 
+/// Particles of one size across the bed where it is narrowest, with the half beyond a plane of symmetry that it
+/// reaches.
+double across_bed(const continuum::Setup& setup) {
+  constexpr double tried = 1e4;  // particles
+  const continuum::Layout bed(continuum::coarser(setup, tried));
+  const double spacing = bed.given.bed.spacing;
+  const std::vector<Vector3> positions = continuum::bed_positions(bed);
+  const auto along = [&](int axis, FaceKind low_face, FaceKind high_face, double extent) {
+    double low = extent, high = 0;
+    for (const Vector3& x : positions) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
+    const bool at_low = low_face == FaceKind::symmetry && low < spacing;
+    const bool at_high = high_face == FaceKind::symmetry && high > extent - spacing;
+    return (at_low != at_high ? 2 : 1) * (high - low + spacing);
+  };
+  const auto& box = setup.given.box;
+  double across = std::min(along(0, box.left, box.right, box.width), along(1, box.front, box.rear, box.depth));
+  if (const std::optional<Sector> sector = bed.sector()) {
+    double radius = 0;
+    for (const Vector3& x : positions) radius = std::max(radius, sector->radius(x));
+    across = 2 * radius + spacing;
+  }
+  return across / setup.given.bed.spacing;
+}
+
 /// With as many levels, up to some, as leave enough particles across the bed; without any where particles of several
 /// sizes cannot be.
 CaseFile with_levels(const CaseFile& file, int max, const ReadSetup& read) {
   for (int levels = max; levels > 0; --levels) try {
       CaseFile changed = with(file, fmt::format("levels.count={}", levels));
       const auto setup = read(changed);
-      const auto& count = setup->lattice.count;
-      if (std::min(count[0], count[1]) >= across_vessel << levels) return changed;
+      if (across_bed(*setup) >= static_cast<double>(across_vessel << levels)) return changed;
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a case without an outlet, or with air
     }
   return file;

@@ -111,6 +111,9 @@ TEST(Accuracy, TakesCoarserParticlesWhereTheBedIsWideEnough) {
   EXPECT_EQ(of(with(silo(), {"bed.spacing=2 mm", "accuracy=draft"}), "levels.count"), Found("1", "accuracy"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "levels.count=0"}), "levels.count"), Found("0", "option"));
   EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "accuracy=reference"}), "levels.count"), Found("0", "default"));
+  const CaseFile half = with(silo(), {"box.depth=50 mm", "box.front=symmetry", "vessel.1.centre=['50 mm', '0 mm']",
+                                      "vessel.2.centre=['50 mm', '0 mm']", "vessel.3.centre=['50 mm', '0 mm']"});
+  EXPECT_EQ(of(with(half, {"bed.spacing=1.9 mm"}), "levels.count"), Found("1", "accuracy"));
 }
 
 TEST(Accuracy, LeavesTheKeysOfTheCase) {

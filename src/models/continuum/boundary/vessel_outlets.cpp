@@ -36,6 +36,17 @@ VesselOutlet rectangle(std::string name, const Vector3& middle, double width, do
           .length = std::max(width, depth)};
 }
 
+/// Adds the mirror image of an extent that a plane of symmetry cuts; how far it is drawn beyond the plane does not
+/// matter.
+void complete(FaceKind low_face, FaceKind high_face, double extent, double& middle, double& width) {
+  const double low = middle - 0.5 * width, high = middle + 0.5 * width, slack = rounding * extent;
+  const bool at_low = low_face == FaceKind::symmetry && low <= slack;
+  const bool at_high = high_face == FaceKind::symmetry && high >= extent - slack;
+  if (at_low == at_high) return;  // neither, or a slot without ends
+  middle = at_low ? 0 : extent;
+  width = 2 * (at_low ? std::min(high, extent) : extent - std::max(low, 0.0));
+}
+
 VesselOutlet of_plate(const Parameters& p, std::size_t part) {
   const VesselPart& v = p.vessel[part];
   const VesselBounds around = bounds_of(p, part);
@@ -45,8 +56,11 @@ VesselOutlet of_plate(const Parameters& p, std::size_t part) {
   if (const bool oblique = a.x * a.y != 0 || b.x * b.y != 0; oblique) {
     outlet.length = std::max(norm(a), norm(b));
     outlet.narrow = norm(cross(a, b)) / outlet.length;
+    return outlet;
   }
-  return outlet;
+  complete(p.box.left, p.box.right, p.box.width, outlet.middle.x, outlet.width);
+  complete(p.box.front, p.box.rear, p.box.depth, outlet.middle.y, outlet.depth);
+  return rectangle(outlet.name, outlet.middle, outlet.width, outlet.depth);
 }
 
 /// The holes of the parts, whether or not a gate covers them.

@@ -45,7 +45,7 @@ double angle_of(const Sector& sector) {
 std::optional<double> distance_of(const Layout& layout) {
   const LevelParameters& levels = layout.given.levels;
   if (levels.distance || !layout.outlet_width) return levels.distance;
-  return static_cast<double>(levels.count) * *layout.outlet_width;
+  return (1 + 0.5 * static_cast<double>(levels.count)) * *layout.outlet_width;
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Parameters;
 
 struct LevelParameters {
   std::int64_t count = 0;          ///< of levels coarser than bed.spacing
-  std::optional<double> distance;  ///< of the first of them, m; left out: count times the width of the outlet
+  std::optional<double> distance;  ///< of the first of them, m; left out: 1 + count / 2 widths of the outlet
   std::optional<std::array<double, 3>> low, high;
 };
 
@@ -46,7 +46,7 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.distance", dimension::length, above(0),
                     "distance from the outlets and from the box of levels.low and levels.high within which particles "
                     "have bed.spacing; those of the next size lie up to twice this distance, and so on; left out: "
-                    "levels.count times the width of the outlet"},
+                    "1 + levels.count / 2 widths of the outlet"},
           levels.distance);
   coarser(Parameter{"levels.low",
                     dimension::length,

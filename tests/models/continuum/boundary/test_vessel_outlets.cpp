@@ -68,6 +68,24 @@ TEST(VesselOutlets, BetweenMirrorsASlotHasNoEnds) {
   EXPECT_NEAR(Layout(p).outlet->across, 20 * spacing, 1e-12);
 }
 
+TEST(VesselOutlets, APlaneOfSymmetryCompletesThem) {
+  Parameters p = slot(20, 8);
+  p.box.front = FaceKind::symmetry;
+  for (const double beyond : {0.0, 1.0, 6.0}) {
+    p.vessel = {gate(plate("gate", {20, -beyond, 30}, {14, 0, 0}, {0, 6 + beyond, 0}))};
+    const VesselOutlet outlet = outlets_of_vessel(p).front();
+    EXPECT_NEAR(outlet.narrow, 12 * spacing, 1e-12) << "drawn " << beyond << " spacings beyond it";
+    EXPECT_NEAR(outlet.length, 14 * spacing, 1e-12);
+    EXPECT_NEAR(outlet.middle.y, 0, 1e-12);
+    EXPECT_NEAR(Layout(p).outlet_width.value_or(0), 12 * spacing, 1e-12);
+  }
+  p.box.right = FaceKind::symmetry;
+  p.vessel = {gate(plate("gate", {55, -1, 30}, {6, 0, 0}, {0, 6, 0}))};
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 10 * spacing, 1e-12) << "a quarter";
+  p.box.front = p.box.right = FaceKind::wall;
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 6 * spacing, 1e-12) << "as it is drawn";
+}
+
 TEST(VesselOutlets, AGateThatIsLargerThanTheHoleItCoversIsNotTheOutlet) {
   Parameters p = slot(30, 30);
   VesselPart cone = named("cone", VesselShape::cone);
