@@ -20,7 +20,13 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::size_t min_merged = 4, max_merged = 12, min_halves = 2, max_halves = 3;
-constexpr int passes_after_split = 20, passes_at_start = 40;  // in which places are relaxed
+
+/// How places are relaxed.
+struct Relaxation {
+  int passes;
+  double max_way;  ///< of a particle, in h
+};
+constexpr Relaxation of_parts{40, 0.8}, of_halves{20, 0.2}, at_start{40, 0.2};
 
 /// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
 constexpr std::array<std::array<double, 3>, 8> corners{
@@ -245,16 +251,16 @@ bool merge(const Levels& levels, const Boundary& boundary, Share& share, State& 
 /// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
 /// moves. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves, 1 or 0; empty, of one
 /// process: those move that have neighbours of another level
-void relax(const Boundary& boundary, double ratio, int passes, std::vector<double> is_part, Share& share, State& s) {
+void relax(const Boundary& boundary, double ratio, const Relaxation& how, std::vector<double> is_part, Share& share,
+           State& s) {
   constexpr double step = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
-  constexpr double most = 0.2;                // of h, that one may move
   // Lists of their own, for which several processes find a halo.
   const std::vector<Vector3>& begun = s.list_position = s.position;
   std::vector<double>&length = s.list_smoothing_length, &margin = s.list_margin;
   length.clear(), margin.clear();
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     length.push_back(ratio * cube_root(s.mass_of_size(i) / s.density[i]));
-    margin.push_back(most * length.back());
+    margin.push_back(how.max_way * length.back());
   }
   share.distribute(s, boundary.domain(), std::array{&is_part});
   const std::size_t count = s.position.size();
@@ -282,7 +288,7 @@ void relax(const Boundary& boundary, double ratio, int passes, std::vector<doubl
   for (const std::uint32_t i : moving)
     walls.push_back(mirror_near(boundary.vessel(), s.position[i], sph::support * length[i]));
   std::vector<Vector3> by(moving.size());
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < how.passes; ++pass) {
     for (std::size_t m = 0; m < moving.size(); ++m) {
       const std::uint32_t i = moving[m];
       const Vector3& x = s.position[i];
@@ -310,7 +316,7 @@ void relax(const Boundary& boundary, double ratio, int passes, std::vector<doubl
     for (std::size_t m = 0; m < moving.size(); ++m) {
       const std::uint32_t i = moving[m];
       const Vector3 moved = s.position[i] + by[m] - begun[i];
-      if (norm(moved) < margin[i]) s.position[i] += by[m];
+      if (norm(moved) < margin[i] && !leaves(boundary, begun[i], begun[i] + moved)) s.position[i] += by[m];
     }
     share.refresh(std::array{Halo::column(std::span(s.position))});
   }
@@ -323,7 +329,7 @@ void split_and_merge(const Levels& levels, const Boundary& boundary, const Param
   for (int level = levels.lightest(); level < levels.count(); ++level) {
     std::optional<std::vector<double>> is_part = split(levels, boundary, share, s);
     if (!is_part) break;
-    relax(boundary, p.sph.smoothing_ratio, passes_after_split, std::move(*is_part), share, s);
+    relax(boundary, p.sph.smoothing_ratio, levels.count() > 0 ? of_parts : of_halves, std::move(*is_part), share, s);
   }
   merge(levels, boundary, share, s);
 }
@@ -336,7 +342,7 @@ void lay_levels(const Setup& setup, State& s) {
   }
   s.merged_energy = 0;
   for (int level = levels.lightest(); level < 0; ++level) split(levels, *setup.boundary, alone, s, Halves::across_axis);
-  relax(*setup.boundary, setup.given.sph.smoothing_ratio, passes_at_start, {}, alone, s);
+  relax(*setup.boundary, setup.given.sph.smoothing_ratio, at_start, {}, alone, s);
   s.list_position.clear(), s.list_smoothing_length.clear(), s.list_margin.clear();  // none have been built
 }
 
