@@ -230,7 +230,9 @@ std::vector<Vector3> bed_positions(const Layout& layout) {
   return positions;
 }
 
-double bed_count(const Layout& layout) {
+namespace {
+
+double count_of_bed(const Layout& layout) {
   const Parameters& p = layout.given;
   if (!p.beds.empty()) {
     double count = 0;
@@ -256,6 +258,13 @@ double bed_count(const Layout& layout) {
     for (std::int64_t i = stride / 2; i < count[0]; i += stride, ++tried)
       held += bed.holds(bed.at(double(i), 0, double(k))) ? 1 : 0;
   return tried > 0 ? std::round(held / tried * layer) * static_cast<double>(count[1]) : 0;
+}
+
+}  // namespace
+
+double bed_count(const Layout& layout) {
+  std::call_once(layout.counted->once, [&] { layout.counted->particles = count_of_bed(layout); });
+  return layout.counted->particles;
 }
 
 }  // namespace talus::continuum

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,12 @@ struct Layout {
   /// How deep grains can lie: the height from the bottom of all beds to their top; without a bed that of vessel or box
   /// above the bed's bottom, m.
   double depth = 0;
+  /// bed_count(), once it is asked for: of a vessel it takes as long as laying the bed. Copies share it.
+  struct Counted {
+    std::once_flag once;
+    double particles = 0;
+  };
+  std::shared_ptr<Counted> counted = std::make_shared<Counted>();
 
   const std::optional<Sector>& sector() const { return boundary->domain().sector(); }
   bool has_no_bed() const { return beds.empty(); }  ///< grains come in through an inlet only

@@ -123,16 +123,18 @@ namespace {
 
 /// Height, m, and particles for each of those of bed.spacing, of places of the bed: of coarser ones where it has many.
 std::vector<std::pair<double, double>> particles_by_height(const Layout& layout) {
-  constexpr double max_tried = 1e5;
+  constexpr double max_tried = 3e4;
+  std::optional<Layout> coarser;
   if (const double count = bed_count(layout); count > max_tried) {
-    Parameters coarser = layout.given;
-    coarser.levels.distance = distance_of(layout);
-    coarser.bed.spacing *= std::cbrt(2 * count / max_tried);
-    return particles_by_height(Layout(coarser));
+    Parameters p = layout.given;
+    p.levels.distance = distance_of(layout);
+    p.bed.spacing *= std::cbrt(count / max_tried);
+    coarser.emplace(p);
   }
-  const Levels levels(layout);
+  const Layout& tried = coarser ? *coarser : layout;
+  const Levels levels(tried);
   std::vector<std::pair<double, double>> particles;
-  for (const Vector3& x : bed_positions(layout))
+  for (const Vector3& x : bed_positions(tried))
     particles.emplace_back(x.z, 1 / mass_ratio_of(levels.wanted(x, Levels::slack_of_merging)));
   std::sort(particles.begin(), particles.end());
   return particles;
