@@ -61,8 +61,7 @@ def cases(options):
 def measure(options):
     found = [Found(case.name, variant.label, list(folders.values())) for case, variant, folders in runs_of(options)]
     rows = [one for one in evaluate(HOPPER, found) if one.row.case in {f.case for f in found}]
-    verdicts = [one.verdict for one in rows]
-    return {"share": verdicts.count("met") / (verdicts.count("met") + verdicts.count("not met"))}, rows
+    return {"rows": sum(one.verdict == "met" for one in rows)}, rows
 
 
 def tell(numbers, rows):

@@ -26,7 +26,8 @@ struct Relaxation {
   int passes;
   double max_way;  ///< of a particle, in h
 };
-constexpr Relaxation of_parts{40, 0.8}, of_halves{20, 0.2}, at_start{40, 0.2};
+/// After a split, without levels (about a sector's axis alone), and of a bed that is laid.
+constexpr Relaxation of_parts{40, 0.8}, about_axis{20, 0.2}, at_start{40, 0.2};
 
 /// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
 constexpr std::array<std::array<double, 3>, 8> corners{
@@ -249,8 +250,8 @@ bool merge(const Levels& levels, const Boundary& boundary, Share& share, State& 
 /// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
 /// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
 /// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
-/// moves. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves, 1 or 0; empty, of one
-/// process: those move that have neighbours of another level
+/// moves; none passes a wall. \param ratio sph.smoothing_ratio \param is_part of each particle, whether it moves, 1 or
+/// 0; empty, of one process: those move that have neighbours of another level
 void relax(const Boundary& boundary, double ratio, const Relaxation& how, std::vector<double> is_part, Share& share,
            State& s) {
   constexpr double step = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
@@ -329,7 +330,7 @@ void split_and_merge(const Levels& levels, const Boundary& boundary, const Param
   for (int level = levels.lightest(); level < levels.count(); ++level) {
     std::optional<std::vector<double>> is_part = split(levels, boundary, share, s);
     if (!is_part) break;
-    relax(boundary, p.sph.smoothing_ratio, levels.count() > 0 ? of_parts : of_halves, std::move(*is_part), share, s);
+    relax(boundary, p.sph.smoothing_ratio, levels.count() > 0 ? of_parts : about_axis, std::move(*is_part), share, s);
   }
   merge(levels, boundary, share, s);
 }
