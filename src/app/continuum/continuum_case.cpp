@@ -119,13 +119,11 @@ double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& t
 /// walls of its vessel by larger particles in it: with levels, as many particles of one size.
 double measure_step(const std::shared_ptr<const Setup>& given, double end, ThreadTeam& team) {
   constexpr double most = 8000;
-  std::shared_ptr<const Setup> setup = given;
+  auto setup = given;
   if (given->given.levels.count > 0) {
     Parameters of_one_size = given->given;
     of_one_size.levels = {};
-    continuum::Layout layout = given->with(of_one_size);
-    layout.counted = given->counted;
-    setup = std::make_shared<const Setup>(layout);
+    setup = std::make_shared<const Setup>(given->with_same_bed(of_one_size));
   }
   const auto in_sample = [&] { return measure_particle(std::make_shared<Setup>(sample(*setup, most)), team); };
   if (setup->has_no_bed()) return 0.5 * continuum::forecast(*setup, end).particles * in_sample();  // half comes in

@@ -46,6 +46,12 @@ struct Layout {
   Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary);
 
   Layout with(Parameters other) const { return {std::move(other), boundary}; }
+  /// The same for parameters that leave the number of particles of bed.spacing as it is.
+  Layout with_same_bed(Parameters other) const {
+    Layout layout = with(std::move(other));
+    layout.counted = counted;
+    return layout;
+  }
   /// The case with one bed only: 0 that of [bed], from 1 on those of [[beds]].
   Layout with_bed_alone(std::size_t bed) const;
 
