@@ -32,6 +32,8 @@ void silence() {
   throw FileError(path.string(), what + ": " + reason);
 }
 
+constexpr hsize_t deflated_piece = 1 << 14;  // entries
+
 static_assert(sizeof(Vector3) == 3 * sizeof(double), "columns of vectors are written as n x 3 doubles");
 
 Handle string_type(std::string_view text) {
@@ -50,7 +52,7 @@ Handle dataspace(std::span<const hsize_t> shape) {
 
 }  // namespace
 
-Writer::Writer(std::filesystem::path path) : path_(std::move(path)) {
+Writer::Writer(std::filesystem::path path, Storage storage) : path_(std::move(path)), storage_(storage) {
   silence();
   std::string name;
   memory_ = Descriptor::in_memory(name, path_.string());
@@ -74,9 +76,17 @@ Handle Writer::write_raw(const std::string& name, hid_t type, std::span<const hs
   H5Pset_create_intermediate_group(link.id(), 1);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
-  // Room for what comes later.
-  H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
-  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  if (storage_ == Storage::deflated && !shape.empty() && shape[0] > deflated_piece) {
+    std::vector<hsize_t> piece(shape.begin(), shape.end());
+    piece[0] = deflated_piece;
+    H5Pset_chunk(creation.id(), static_cast<int>(piece.size()), piece.data());
+    H5Pset_shuffle(creation.id());
+    H5Pset_deflate(creation.id(), 1);
+  } else {
+    // Room for what comes later.
+    H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  }
   const Handle space = dataspace(shape);
   Handle data(H5Dcreate2(file_.id(), name.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT), H5Dclose);
   const bool none = values == nullptr || std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
@@ -154,9 +164,15 @@ void Writer::write(const std::string& name, std::size_t count, ColumnSource sour
   const hid_t type = source.kind == Kind::integer ? H5T_NATIVE_INT64
                      : source.kind == Kind::byte  ? H5T_NATIVE_UINT8
                                                   : H5T_NATIVE_DOUBLE;
-  const std::array<hsize_t, 2> shape{count, 3};
-  const Handle data =
-      write_raw(name, type, std::span(shape).first(source.kind == Kind::vector ? 2 : 1), nullptr, source.unit);
+  const std::array<hsize_t, 2> both{count, 3};
+  const std::span shape = std::span(both).first(source.kind == Kind::vector ? 2 : 1);
+  if (storage_ == Storage::deflated) {
+    std::vector<std::byte> values(count * source.entry_bytes());
+    source.read(0, count, values.data());
+    write_raw(name, type, shape, values.data(), source.unit);
+    return;
+  }
+  const Handle data = write_raw(name, type, shape, nullptr, source.unit);
   if (count == 0) return;
   const haddr_t at = H5Dget_offset(data.id());
   if (at == HADDR_UNDEF) fail(path_, "has no room for '" + name + "'");

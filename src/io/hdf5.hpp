@@ -4,9 +4,9 @@
 ///
 /// The library builds files in memory (a file of tmpfs), because a disk that fills up while it writes leaves it with a
 /// file that it can neither finish nor close. Columns that are read piece by piece have room in that file which takes
-/// no memory; what goes to the disk, in order and once, is the file with their pieces in that room. Nothing is
-/// compressed: digits of positions and velocities are noise, and deflate with shuffle takes 4 times as long as writing
-/// to save a third.
+/// no memory; what goes to the disk, in order and once, is the file with their pieces in that room. What particles have
+/// is not compressed: digits of positions and velocities are noise, and deflate with shuffle takes 4 times as long as
+/// writing to save a third. What repeats, as the loads of fields on many triangles each, is.
 #pragma once
 
 #include <hdf5.h>
@@ -49,13 +49,16 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
+/// How columns lie in a file.
+enum class Storage { plain, deflated };
+
 /// A file being built. Names are paths ("PointData/radius"); groups on the way are made. Units go into the
 /// attribute "units" of each data set. The same calls give the same bytes: no times are recorded.
 /// \throws FileError, from every member, naming the file it is meant for
 class Writer {
  public:
-  /// \param path the file it is meant for; used in messages only
-  explicit Writer(std::filesystem::path path);
+  /// \param path the file it is meant for; used in messages only \param storage of the columns of one piece and more
+  explicit Writer(std::filesystem::path path, Storage storage = Storage::plain);
 
   void group(const std::string& name);
   /// Columns of n, n x 3, n and n entries.
@@ -63,7 +66,7 @@ class Writer {
   void write(const std::string& name, std::span<const Vector3> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::int64_t> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::uint8_t> values);
-  /// A column of so many entries, which is read when the file is taken to the disk.
+  /// A column of so many entries, which is read when the file is taken to the disk; at once if it is deflated.
   void write(const std::string& name, std::size_t count, ColumnSource source);
   /// Cells of a grid, in single precision: nz x ny x nx, or nz x ny x nx x 3. \param shape nz, ny, nx
   void write_grid(const std::string& name, const std::array<std::size_t, 3>& shape, std::span<const double> values,
@@ -97,6 +100,7 @@ class Writer {
                    std::string_view unit);
 
   std::filesystem::path path_;
+  Storage storage_;
   Descriptor memory_;
   Handle file_;
   std::vector<Later> later_;

@@ -238,7 +238,7 @@ double read_points_time(const std::filesystem::path& path) {
 
 // As an unstructured grid: VTK 9.1 and ParaView 5.11 read no PolyData.
 void write_surface(const std::filesystem::path& path, const SurfaceSnapshot& snapshot) {
-  hdf5::Writer file(path);
+  hdf5::Writer file(path, hdf5::Storage::deflated);
   std::vector<std::int64_t> offsets{0}, connectivity;
   for (const auto& corners : snapshot.triangles) {
     connectivity.insert(connectivity.end(), corners.begin(), corners.end());

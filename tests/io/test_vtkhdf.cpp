@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "base/error.hpp"
@@ -47,6 +49,27 @@ TEST(VtkHdf, ReadsBackBitForBit) {
   expect_same_bits(std::get<1>(read.columns[0].values), std::get<1>(written.columns[1].values));
   expect_same_bits(std::get<2>(read.columns[1].values), std::get<2>(written.columns[2].values));
   expect_same_bits(std::get<0>(read.columns[2].values), std::get<0>(written.columns[0].values));
+}
+
+TEST(VtkHdf, SurfacesAreDeflatedAndKeptBitForBit) {
+  const ScratchFolder folder;
+  constexpr std::size_t count = 40000, triangles_of_a_field = 20;
+  SurfaceSnapshot walls{.time = 1, .points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {}, .columns = {}};
+  std::vector<double> pressure;
+  std::vector<Vector3> shear;
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto field = static_cast<double>(n / triangles_of_a_field);
+    walls.triangles.push_back({0, 1, 2});
+    pressure.push_back(1 / (3 + field)), shear.push_back({-0.0, std::sqrt(field), 1 / (7 + field)});
+  }
+  walls.columns = {{"pressure", "Pa", pressure}, {"shear", "Pa", shear}};
+  write_surface(folder / "walls.vtkhdf", walls);
+  EXPECT_LT(std::filesystem::file_size(folder / "walls.vtkhdf"), count * 4 * sizeof(double) / 4);
+  const hdf5::Reader file(folder / "walls.vtkhdf");
+  expect_same_bits(file.doubles("VTKHDF/CellData/pressure"), pressure);
+  expect_same_bits(file.vectors("VTKHDF/CellData/shear"), shear);
+  EXPECT_EQ(file.integers("VTKHDF/Connectivity").size(), 3 * count);
+  EXPECT_EQ(file.integers("VTKHDF/Offsets").back(), static_cast<std::int64_t>(3 * count));
 }
 
 TEST(VtkHdf, OfASectorHoldsItOnceAndReadsTheWhole) {

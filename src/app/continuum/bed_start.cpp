@@ -10,6 +10,8 @@
 #include "app/case/scene.hpp"
 #include "io/figure/figure.hpp"
 #include "models/continuum/setup/bed_report.hpp"
+#include "models/continuum/setup/initial.hpp"
+#include "models/continuum/setup/levels.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::app {
@@ -19,7 +21,7 @@ namespace {
 using continuum::Layout;
 
 constexpr double millimetre = 1e-3;
-constexpr double half_thickness = 0.51;  // of a section, in spacings: one layer of a lattice at least
+constexpr double half_thickness = 0.51;  // of a section, in sizes of a particle: one layer of a lattice at least
 constexpr figure::View view_yz{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
 
 /// What a section across an axis shows.
@@ -29,16 +31,43 @@ struct Section {
   std::vector<figure::Segment> segments;
 };
 
-/// \param positions of the whole bed
-Section section(const Layout& layout, const std::vector<Vector3>& positions, int axis, double at) {
-  const continuum::Parameters& p = layout.given;
+/// The particles at the start, of the whole vessel.
+struct Bed {
+  std::vector<Vector3> positions;
+  std::vector<double> sizes;  ///< sides of the cubes that they fill, m
+};
+
+Bed bed_of(const continuum::Setup& setup) {
+  const double spacing = setup.given.bed.spacing;
+  Bed bed;
+  if (continuum::has_several_masses(setup.given)) {
+    const continuum::State state = continuum::initial_state(setup);
+    bed.positions = state.position;
+    for (const double ratio : state.mass_ratio) bed.sizes.push_back(spacing * std::cbrt(ratio));
+  } else {
+    bed.positions = continuum::bed_positions(setup);
+    bed.sizes.assign(bed.positions.size(), spacing);
+  }
+  const std::size_t own = bed.positions.size();
+  const auto& sector = setup.sector();
+  for (int k = 1; sector && k < sector->copies(); ++k)
+    for (std::size_t n = 0; n < own; ++n) {
+      bed.positions.push_back(sector->turned(bed.positions[n], k));
+      bed.sizes.push_back(bed.sizes[n]);
+    }
+  return bed;
+}
+
+Section section(const Layout& layout, const Bed& bed, int axis, double at) {
   Section cut;
   // Through the layer nearest to the plane.
   double nearest = INFINITY;
-  for (const Vector3& x : positions) nearest = std::min(nearest, std::abs(x[axis] - at));
-  for (const Vector3& x : positions)
-    if (std::abs(x[axis] - at) <= std::max(nearest, half_thickness * p.bed.spacing)) cut.positions.push_back(x);
-  cut.radii.assign(cut.positions.size(), 0.5 * p.bed.spacing);
+  for (const Vector3& x : bed.positions) nearest = std::min(nearest, std::abs(x[axis] - at));
+  for (std::size_t n = 0; n < bed.positions.size(); ++n)
+    if (std::abs(bed.positions[n][axis] - at) <= std::max(nearest, half_thickness * bed.sizes[n])) {
+      cut.positions.push_back(bed.positions[n]);
+      cut.radii.push_back(0.5 * bed.sizes[n]);
+    }
   const Domain& domain = layout.boundary->domain();
   if (axis == 1)
     for (const WallLine& line : scene_of(domain, 0).walls) cut.segments.push_back({line.from, line.to});
@@ -62,7 +91,7 @@ Section section(const Layout& layout, const std::vector<Vector3>& positions, int
     triangles.push_back(t);
   }
   if (!triangles.empty())
-    for (const auto& [from, to] : section_at(Surface(std::move(triangles), p.vessel.size()), at))
+    for (const auto& [from, to] : section_at(Surface(std::move(triangles), layout.given.vessel.size()), at))
       cut.segments.push_back({turned(from), turned(to)});
   return cut;
 }
@@ -112,25 +141,20 @@ std::vector<std::pair<std::string, std::string>> bed_lines(const Layout& layout)
   return lines;
 }
 
-void draw_bed(const Layout& layout, const std::string& title, const std::filesystem::path& path) {
-  const continuum::Parameters& p = layout.given;
-  std::vector<Vector3> positions = continuum::bed_positions(layout);
-  if (const auto& sector = layout.sector()) {
-    const std::size_t own = positions.size();
-    for (int k = 1; k < sector->copies(); ++k)
-      for (std::size_t n = 0; n < own; ++n) positions.push_back(sector->turned(positions[n], k));
-  }
+void draw_bed(const continuum::Setup& setup, const std::string& title, const std::filesystem::path& path) {
+  const continuum::Parameters& p = setup.given;
+  const Bed bed = bed_of(setup);
   Vector3 middle = 0.5 * Vector3{p.box.width, p.box.depth, p.box.height};
-  if (!positions.empty()) {
-    Vector3 low = positions.front(), high = low;
-    for (const Vector3& x : positions)
+  if (!bed.positions.empty()) {
+    Vector3 low = bed.positions.front(), high = low;
+    for (const Vector3& x : bed.positions)
       for (int axis = 0; axis < 3; ++axis)
         low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
     middle = 0.5 * (low + high);
   }
-  std::vector<Section> cuts = {section(layout, positions, 1, middle.y)};
+  std::vector<Section> cuts = {section(setup, bed, 1, middle.y)};
   const bool is_deep = p.box.depth > 4 * p.bed.spacing;
-  if (is_deep) cuts.push_back(section(layout, positions, 0, middle.x));
+  if (is_deep) cuts.push_back(section(setup, bed, 0, middle.x));
   figure::Figure figure{.title = title, .columns = static_cast<int>(cuts.size()), .letters = false};
   figure.panels.emplace_back(
       picture_of(cuts[0], figure::view_xz, fmt::format("*y* = {:.4g} mm", middle.y / millimetre)));

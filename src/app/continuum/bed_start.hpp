@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "models/continuum/setup/layout.hpp"
+#include "models/continuum/setup/setup.hpp"
 
 namespace talus::app {
 
@@ -15,8 +15,8 @@ namespace talus::app {
 /// read.
 std::vector<std::pair<std::string, std::string>> bed_lines(const continuum::Layout& layout);
 
-/// Writes sections of walls and bed through the middle of the bed, across y and across x, as a PNG. Gates are shut.
-/// \throws FileError
-void draw_bed(const continuum::Layout& layout, const std::string& title, const std::filesystem::path& path);
+/// Writes sections of walls and bed, each particle by its size, through the middle of the bed, across y and across x,
+/// as a PNG. Gates are shut. \throws FileError
+void draw_bed(const continuum::Setup& setup, const std::string& title, const std::filesystem::path& path);
 
 }  // namespace talus::app

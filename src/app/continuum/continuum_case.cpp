@@ -94,8 +94,9 @@ Forecast forecast(const Setup& setup, const run::RunParameters& run) {
   forecast.phases.push_back(
       {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
   const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
-  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
-                        2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
+  forecast.disk_bytes =
+      (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 300 * f.load_fields + 20e3) +
+      2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;
   return forecast;
 }
 

@@ -51,7 +51,7 @@ void for_each_piece(const Surface& surface, double edge, double area, Visit&& vi
 
 SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector,
                              const Vector3& low, const Vector3& high)
-    : size_(size), sector_(sector) {
+    : size_(size), from_(low), to_(high), sector_(sector) {
   if (surface.is_empty()) return;
   fields_ = sector ? spread_points(surface, size, *sector) : spread_points(surface, size);
   low_ = surface.low();
@@ -71,17 +71,16 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   of_cells_.resize(fields_.size());
   for (std::uint32_t n = 0; n < fields_.size(); ++n) of_cells_[next[cell[n]]++] = n;
-  find_areas(surface, low, high);
+  find_areas(surface);
 }
 
-void SurfaceFields::find_areas(const Surface& surface, const Vector3& low, const Vector3& high) {
+void SurfaceFields::find_areas(const Surface& surface) {
   const std::size_t copies = sector_ ? static_cast<std::size_t>(sector_->copies()) : 1, own = fields_.size() / copies;
   std::vector<double> area(own, 0.0);
   const double any = std::numeric_limits<double>::infinity();
   for_each_piece(surface, max_piece * size_, any, [&](std::uint32_t t, const Triangle& piece) {
     const Vector3 x = piece.middle();
-    for (int axis = 0; axis < 3; ++axis)
-      if (x[axis] < low[axis] || x[axis] > high[axis]) return;
+    if (!counts(x)) return;
     area[at(surface.part(t), x) % own] += norm(piece.area()) / static_cast<double>(copies);
   });
   for (std::size_t n = 0; n < fields_.size(); ++n) fields_[n].area = area[n % own];
@@ -142,7 +141,9 @@ FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double ed
   FieldMesh mesh;
   std::vector<Triangle> triangles;
   for_each_piece(surface, edge, edge * edge * area_of_edge, [&](std::uint32_t t, const Triangle& piece) {
-    mesh.field.push_back(fields.at(surface.part(t), piece.middle()));
+    const Vector3 x = piece.middle();
+    if (!fields.counts(x)) return;
+    mesh.field.push_back(fields.at(surface.part(t), x));
     triangles.push_back(piece);
   });
   const TriangleEdges edges(triangles);

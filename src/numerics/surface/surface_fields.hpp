@@ -32,6 +32,10 @@ class SurfaceFields {
                 const Vector3& high = {infinity, infinity, infinity});
 
   std::size_t count() const { return fields_.size(); }
+  /// Whether what lies there counts.
+  bool counts(const Vector3& x) const {
+    return x.x >= from_.x && x.y >= from_.y && x.z >= from_.z && x.x <= to_.x && x.y <= to_.y && x.z <= to_.z;
+  }
   /// The middle and normal of each, the area of what counts and is nearer to this middle than to others of its smooth
   /// part, and the patch and part to which it belongs.
   std::span<const SurfacePoint> all() const { return fields_; }
@@ -56,9 +60,10 @@ class SurfaceFields {
     const int copy = sector_ ? static_cast<int>(field / own()) : 0;
     return copy == 0 ? v : sector_->turn(way * copy) * v;
   }
-  void find_areas(const Surface& surface, const Vector3& low, const Vector3& high);
+  void find_areas(const Surface& surface);
 
   double size_ = 0;
+  Vector3 from_, to_;
   std::optional<Sector> sector_;
   std::vector<SurfacePoint> fields_;
   // Their middles in the cells of a dense grid: a search is made for every particle at a wall in every step.
@@ -70,8 +75,8 @@ class SurfaceFields {
   std::size_t number(int i, int j, int k) const;
 };
 
-/// The triangles of a surface, cut until no edge is longer than a length, each with the field in whose part and nearest
-/// to whose middle it is: what is drawn of the fields.
+/// The triangles of a surface, cut until no edge is longer than a length, each whose middle counts with the field in
+/// whose part and nearest to whose middle it is: what is drawn of the fields.
 struct FieldMesh {
   std::vector<Vector3> points;                       ///< the corners of all triangles, each once
   std::vector<std::array<std::int64_t, 3>> corners;  ///< of each triangle, numbers of points

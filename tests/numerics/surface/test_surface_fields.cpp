@@ -98,6 +98,13 @@ TEST(SurfaceFields, OnlyAreaWithinTheBoxCounts) {
   double area = 0;
   for (const SurfacePoint& field : half.all()) area += field.area;
   EXPECT_NEAR(area, 0.5 * area_of(tube_with_floor()), 0.01 * area);
+  double drawn = 0;
+  const FieldMesh mesh = mesh_of(surface, half, 0.15);
+  for (const auto& [a, b, c] : mesh.corners) {
+    const auto corner = [&](std::int64_t n) { return mesh.points[static_cast<std::size_t>(n)]; };
+    drawn += norm(Triangle{{corner(a), corner(b), corner(c)}, 0}.area());
+  }
+  EXPECT_NEAR(drawn, area, 0.02 * area);
 }
 
 TEST(SurfaceFields, TheMeshIsTheSurfaceCutFine) {

@@ -15,7 +15,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double size_of_field = 2, height_of_band = 4;  // spacings
+constexpr double height_of_band = 4;  // spacings
 constexpr long max_bands = 12;
 constexpr double level = 0.999;
 
@@ -41,7 +41,7 @@ SurfaceFields load_fields(const Layout& layout) {
   const Parameters& p = layout.given;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {layout.boundary->vessel(),
-          size_of_field * p.bed.spacing,
+          size_of_load_field * p.bed.spacing,
           layout.sector(),
           {0, 0, -infinity},
           {p.box.width, p.box.depth, infinity}};

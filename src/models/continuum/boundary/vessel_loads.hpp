@@ -56,7 +56,9 @@ struct LoadOfFields {
   Vector3 received;  ///< N s
 };
 
-/// The fields of a vessel's walls: twice the spacing of the particles wide.
+constexpr double size_of_load_field = 2;  ///< in spacings
+
+/// The fields of a vessel's walls.
 SurfaceFields load_fields(const Layout& layout);
 
 /// Without load. \param fields their number \param unit State::impulse_unit, N s

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/boundary/vessel_loads.hpp"
 #include "models/continuum/boundary/vessel_walls.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/population.hpp"
@@ -87,6 +88,7 @@ Forecast forecast(const Setup& setup, double end) {
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .wall_points = points_on_square(p.levels) * squares,
           .triangles = triangles.count,
+          .load_fields = squares / (size_of_load_field * size_of_load_field),
           .settling_steps = std::ceil(settling.min / step),
           .max_settling_steps = std::ceil(settling.max / step),
           .flow_steps = std::ceil(end / step)};
