@@ -66,8 +66,8 @@ std::vector<Answer> answers_of_outlets(const continuum::Layout& layout, const st
 /// The flow through the outlet. \param of a quantity of the summary
 class FlowAnswers {
  public:
-  FlowAnswers(const continuum::Setup& setup, const std::vector<NamedValue>& quantities)
-      : setup_(setup), quantities_(quantities), left_(of("residual_fraction")) {}
+  FlowAnswers(const continuum::Setup& setup, const std::vector<NamedValue>& quantities, double end_of_run)
+      : setup_(setup), quantities_(quantities), left_(of("residual_fraction")), end_(end_of_run) {}
 
   std::vector<Answer> all() const {
     if (!std::isfinite(left_)) return {};
@@ -101,6 +101,8 @@ class FlowAnswers {
     Answer answer{.question = "Flow", .answer = {}};
     if (std::isfinite(emptied))
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
+    else if (const auto shut = setup_.boundary->shut_since(end_))
+      answer.answer = fmt::format("was shut after {}: {}", time_text(*shut), rest);
     else if (is_cohesive() && has_arch() && (std::isfinite(stopped) || !(discharged() > 1e-9)))
       answer.answer =
           fmt::format("arched at {}, over the outlet: {}", std::isfinite(stopped) ? time_text(stopped) : "once", rest);
@@ -161,7 +163,7 @@ class FlowAnswers {
 
   const continuum::Setup& setup_;
   const std::vector<NamedValue>& quantities_;
-  double left_;
+  double left_, end_;
 };
 
 /// The rows of a table of loads that are of one wall.
@@ -304,9 +306,9 @@ std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& qu
 
 }  // namespace
 
-std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<NamedValue>& quantities,
+std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<NamedValue>& quantities, double end,
                                const std::filesystem::path& run_folder) {
-  std::vector<Answer> answers = FlowAnswers(setup, quantities).all();
+  std::vector<Answer> answers = FlowAnswers(setup, quantities, end).all();
   const continuum::Parameters& p = setup.given;
   for (Answer& answer : answers_of_outlets(setup, quantities)) answers.push_back(std::move(answer));
   const double left = value_of(quantities, "residual_fraction");

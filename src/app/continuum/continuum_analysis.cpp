@@ -125,7 +125,7 @@ double middle_of_vessel(const continuum::Parameters& p) {
 std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Layout& layout) {
   if (layout.given.vessel.empty()) return {};
   continuum::Boundary boundary = *layout.boundary;
-  boundary.open_gates(std::numeric_limits<double>::infinity());
+  boundary.move_gates(std::numeric_limits<double>::infinity());
   return section_at(boundary.vessel(), middle_of_vessel(layout.given));
 }
 

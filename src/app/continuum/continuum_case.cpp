@@ -305,7 +305,7 @@ class ContinuumRun : public OpenedRun {
   }
   std::vector<std::filesystem::path> draw() override { return draw_continuum(folder(), run(), title_); }
   std::vector<Answer> answers(const std::vector<NamedValue>& quantities) override {
-    return answers_of(*setup_, quantities, folder());
+    return answers_of(*setup_, quantities, run().end(), folder());
   }
   /// The middle of the discharge, from the opening of the gate, s; nothing where there is none.
   std::optional<double> telling_time() override {

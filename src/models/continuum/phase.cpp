@@ -11,16 +11,17 @@ namespace talus::continuum {
 
 namespace {
 
-/// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
-/// The step's velocity gradients are still to be used, and go with the particles.
-void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+/// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it; a
+/// gate that is there again hides what has passed it. The step's velocity gradients are still to be used, and go with
+/// the particles.
+void move_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
   if (!w.boundary.has_gates_due(time)) return;
   const bool in_vessel = w.boundary.vessel_has_gates_due(time);
   evaluate(team, p, s, w);
   std::vector<double> before = w.rates.kernel_density;
-  w.boundary.open_gates(time);
-  if (in_vessel) {  // who was hidden by the gate is a neighbour now
+  w.boundary.move_gates(time);
+  if (in_vessel) {  // who was hidden by the gate is a neighbour now, and the reverse
     std::vector<std::vector<double>*> carried{&before};
     for (std::vector<double>& component : w.rates.velocity_gradient.component) carried.push_back(&component);
     for (std::vector<double>* const column : carried) w.share.keep_owned(*column);
@@ -97,13 +98,13 @@ void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, St
   const bool quiet = s.time >= setup.loading.time() && 100 * moving <= count;
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
-  if (s.gate_time >= 0) return open_gates(team, p, s, w);
+  if (s.gate_time >= 0) return move_gates(team, p, s, w);
   const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= scales.settled_duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     w.share.join_window(s.wall_loads);
     begin_flow(w.load_fields, s.time, s.wall_loads);
-    open_gates(team, p, s, w);
+    move_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > scales.settling_limit) {
     const std::size_t left = left_vessel(setup, s, w.share);
     const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";

@@ -73,9 +73,10 @@ bool leaves(const Boundary& boundary, const Vector3& a, const Vector3& b) {
   return is_between(boundary, a, b) || boundary.domain().bounce(a, b);
 }
 
-/// A displacement from x, halved until it ends before the wall.
+/// A displacement from x, halved until it ends before the wall, not on it.
 Vector3 within(const Boundary& boundary, const Vector3& x, Vector3 by) {
-  for (int halved = 0; halved < 6 && leaves(boundary, x, x + by); ++halved) by = 0.5 * by;
+  constexpr double beyond = 1 + 1e-6;
+  for (int halved = 0; halved < 6 && leaves(boundary, x, x + beyond * by); ++halved) by = 0.5 * by;
   return by;
 }
 

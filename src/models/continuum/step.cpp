@@ -306,7 +306,7 @@ void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   fit(p, s, w);
   if (p.gate.opens == GateOpens::from_the_start) {
     s.gate_time = 0;
-    w.boundary.open_gates(0);
+    w.boundary.move_gates(0);
   }
   update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
@@ -319,7 +319,7 @@ void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
 void derive(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   w.share.begin(s);
   fit(setup.given, s, w);
-  if (s.gate_time >= 0) w.boundary.open_gates(s.time - s.gate_time);
+  if (s.gate_time >= 0) w.boundary.move_gates(s.time - s.gate_time);
   update_smoothing_lengths(team, s, w);
   build_lists(team, setup.given, s, w);
   evaluate(team, setup.given, s, w);

@@ -45,8 +45,8 @@ class Surface {
   std::uint32_t facet(std::size_t triangle) const { return made_->facets[triangle]; }
   std::size_t facets() const { return made_->facet_count; }
 
-  /// Takes a patch away, for good: nothing is crossed there any more.
-  void open(std::size_t patch) { is_open_[patch] = true; }
+  /// Takes a patch away, so that nothing is crossed there, or puts it back.
+  void set_open(std::size_t patch, bool open) { is_open_[patch] = open; }
   bool is_open(std::size_t patch) const { return is_open_[patch]; }
 
   struct Foot {

@@ -105,6 +105,27 @@ TEST(Splitting, PartsOfALatticeAreTheLatticeOfTheNextLevel) {
   }
 }
 
+/// Crowded in a corner of three walls, of which only the nearest is a mirror.
+TEST(Splitting, PartsThatAreRelaxedPassNoWall) {
+  Parameters p = bed_of_levels(1);
+  p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = FaceKind::open;
+  p.vessel = {plate("left", {2, 0, 0}, {0, 8, 0}, {0, 0, 16}), plate("front", {0, 2, 0}, {24, 0, 0}, {0, 0, 16}),
+              plate("floor", {0, 0, 2}, {24, 0, 0}, {0, 8, 0})};
+  p.levels.low = p.levels.high = std::array{-1.0, -1.0, -1.0};
+  p.bed.left = p.bed.front = p.bed.bottom = 2 * spacing, p.bed.height = 12 * spacing;
+  const auto setup = setup_of(p);
+  State s = initial_state(setup);
+  const auto crowded = [](double x) { return 2 * spacing + 0.7 * (x - 2 * spacing); };
+  for (Vector3& x : s.position) x = {crowded(x.x), crowded(x.y), crowded(x.z)};
+  p.levels.low = {0, 0, 0}, p.levels.high = {1, 1, 1};
+  Share alone(one_process());
+  split_and_merge(Levels{Layout(p)}, *setup.boundary, p, alone, s);
+  for (const Vector3& x : s.position) {
+    for (int axis = 0; axis < 3; ++axis) EXPECT_GT(x[axis], 2 * spacing);
+  }
+  EXPECT_GT(s.position.size(), 1000u);
+}
+
 TEST(Splitting, NothingMergesAcrossAPlate) {
   Parameters p = bed_of_levels(1);
   p.levels.low = p.levels.high = std::array{-1.0, -1.0, -1.0};

@@ -86,7 +86,7 @@ TEST(FaceApertures, AConeOfTrianglesIsTightUntilItsLidOpens) {
   const double volume =
       std::numbers::pi * (high - low) / 3 * (wide * wide + wide * narrow + narrow * narrow) / std::pow(cell, 3);
   EXPECT_NEAR(static_cast<double>(within), volume, 0.05 * volume);
-  surface.open(1);
+  surface.set_open(1, true);
   EXPECT_EQ(reached(FaceApertures(grid, closed_box(), {}, surface), inside), static_cast<std::size_t>(n * n * n));
 }
 

@@ -79,7 +79,7 @@ TEST(Surface, AnOpenPatchIsNotThere) {
   Surface surface(triangles, 2);
   const Vector3 above{-0.5, 0.5, 1}, below{-0.5, 0.5, -1};
   EXPECT_TRUE(surface.blocks(above, below));
-  surface.open(1);
+  surface.set_open(1, true);
   EXPECT_FALSE(surface.blocks(above, below));
   EXPECT_TRUE(surface.blocks({0.5, -0.5, 1}, {0.5, -0.5, -1}));
   EXPECT_NEAR(surface.nearest({-0.5, 0.5, 0}, 2)->distance, std::sqrt(0.5), 1e-12) << "the diagonal of the other half";
@@ -88,7 +88,7 @@ TEST(Surface, AnOpenPatchIsNotThere) {
 TEST(Surface, CopiesShareTheTrianglesAndHaveGatesOfTheirOwn) {
   const Surface shut(square(1), 1);
   Surface opened = shut;
-  opened.open(0);
+  opened.set_open(0, true);
   EXPECT_EQ(opened.triangles().data(), shut.triangles().data());
   EXPECT_FALSE(opened.blocks({0.1, 0, -1}, {0.1, 0, 1}));
   EXPECT_TRUE(shut.blocks({0.1, 0, -1}, {0.1, 0, 1}));
@@ -186,7 +186,7 @@ TEST(Surface, SlabsHoldTheTrianglesThatReachIntoABox) {
   for (const Triangle& t : tube(200)) all.push_back({t.corner, 1});
   for (Triangle t : square(1.2)) all.push_back({t.corner, 2});
   Surface surface(all, 3);
-  surface.open(2);
+  surface.set_open(2, true);
   Random random(6);
   constexpr double thin = 0.02, wide = 0.4;
   for (int n = 0; n < 100; ++n) {

@@ -86,29 +86,52 @@ std::optional<WallMotion> motion_of(const Parameters& p, const VesselPart& v) {
 Boundary::Boundary(const Parameters& p) : domain_(domain_of(p)), vessel_(surface_of(p)) {
   const double friction = p.walls.friction == Friction::coulomb ? p.walls.coefficient : 0;
   const double adhesion = wall_adhesion(p);
-  for (const char* const face : face_names) patches_.push_back({face, friction, adhesion, {}, {}});
-  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, adhesion, {}, {}});
+  for (const char* const face : face_names) patches_.push_back({face, friction, adhesion, {}, {}, {}, {}});
+  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, adhesion, {}, {}, {}, {}});
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
     patches_.push_back({.name = name_of(p, n),
                         .friction = p.walls.friction == Friction::coulomb ? v.friction.value_or(friction) : 0,
                         .adhesion = wall_adhesion(p, v.adhesion),
                         .opens_after = v.gate ? std::optional(v.opens_after) : std::nullopt,
+                        .closes_after = v.gate ? v.closes_after : std::nullopt,
+                        .repeats_every = v.gate ? v.repeats_every : std::nullopt,
                         .motion = motion_of(p, v)});
   }
 }
 
+bool Patch::is_away(double time) const {
+  if (!opens_after || time < *opens_after) return false;
+  if (!closes_after) return true;
+  if (std::isinf(time)) return false;
+  const double since = repeats_every ? std::fmod(time - *opens_after, *repeats_every) : time - *opens_after;
+  return since < *closes_after - *opens_after;
+}
+
+std::optional<double> Patch::closed_before(double time) const {
+  if (!opens_after || !closes_after || time < *opens_after) return std::nullopt;
+  const double times = repeats_every ? std::floor((time - *opens_after) / *repeats_every) : 0;
+  return *closes_after + times * repeats_every.value_or(0);
+}
+
 bool Boundary::vessel_has_gates_due(double time) const {
   for (std::size_t n = 0; n < vessel_.patches(); ++n)
-    if (const auto& opens = patches_[patch_of_part(n)].opens_after; opens && !vessel_.is_open(n) && time >= *opens)
-      return true;
+    if (vessel_.is_open(n) != patches_[patch_of_part(n)].is_away(time)) return true;
   return false;
 }
 
-void Boundary::open_gates(double time) {
+void Boundary::move_gates(double time) {
   domain_.open_gates(time);
-  for (std::size_t n = 0; n < vessel_.patches(); ++n)
-    if (const auto& opens = patches_[patch_of_part(n)].opens_after; opens && time >= *opens) vessel_.open(n);
+  for (std::size_t n = 0; n < vessel_.patches(); ++n) vessel_.set_open(n, patches_[patch_of_part(n)].is_away(time));
+}
+
+std::optional<double> Boundary::shut_since(double time) const {
+  std::optional<double> last;
+  for (const Patch& patch : patches_) {
+    if (patch.is_away(time)) return std::nullopt;
+    last = std::max(last, patch.closed_before(time));
+  }
+  return last;
 }
 
 int Boundary::openings() const {

@@ -35,10 +35,17 @@ struct WallMotion {
 
 struct Patch {
   std::string name;
-  double friction = 0;                ///< coefficient of Coulomb's friction
-  double adhesion = 0;                ///< shear stress that it bears besides, Pa
-  std::optional<double> opens_after;  ///< a gate: so long after the gate of the case opens, s
-  std::optional<WallMotion> motion;   ///< from the opening of the gate of the case on
+  double friction = 0;                  ///< coefficient of Coulomb's friction
+  double adhesion = 0;                  ///< shear stress that it bears besides, Pa
+  std::optional<double> opens_after;    ///< a gate: so long after the gate of the case opens, s
+  std::optional<double> closes_after;   ///< a gate that is shut again, the same
+  std::optional<double> repeats_every;  ///< of such a gate, s
+  std::optional<WallMotion> motion;     ///< from the opening of the gate of the case on
+
+  /// \param time from the opening of the gate of the case, s; infinite: at the end, where what repeats is shut
+  bool is_away(double time) const;
+  /// When it closed last before a time at which it is not away; nothing if it has not.
+  std::optional<double> closed_before(double time) const;
 };
 
 class Boundary {
@@ -58,13 +65,15 @@ class Boundary {
   const Domain& domain() const { return domain_; }
   const Surface& vessel() const { return vessel_; }  ///< patch n of the surface is part n of the vessel
 
-  /// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s
+  /// Whether a gate is to open or to close. \param time from the opening of the gate of the case, s
   bool has_gates_due(double time) const { return domain_.has_gates_due(time) || vessel_has_gates_due(time); }
   bool vessel_has_gates_due(double time) const;
-  /// Opens these, for good.
-  void open_gates(double time);
-  /// How many openings there have been.
+  /// Opens and closes them.
+  void move_gates(double time);
+  /// How many gates are open.
   int openings() const;
+  /// Since when gates that were open are all shut again, the same; nothing if one is open, or none has closed.
+  std::optional<double> shut_since(double time) const;
 
  private:
   std::size_t first_of_vessel() const { return static_cast<std::size_t>(domain_.wall_count()); }

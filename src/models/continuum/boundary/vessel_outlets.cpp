@@ -180,7 +180,7 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
 double share_blocked_below(const Layout& layout, const VesselOutlet& outlet) {
   const Parameters& p = layout.given;
   Boundary boundary = *layout.boundary;
-  boundary.open_gates(std::numeric_limits<double>::infinity());
+  boundary.move_gates(std::numeric_limits<double>::infinity());
   const Surface& surface = boundary.vessel();
   constexpr int across = 16;
   const double height = outlet.narrow, start = 0.01 * height;

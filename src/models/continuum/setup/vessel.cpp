@@ -235,6 +235,14 @@ std::vector<Problem> check_vessel(const Parameters& p) {
     if (upright && !(v.top > v.bottom))
       add("top", fmt::format("{:.4g} mm is not above the bottom", v.top / millimetre),
           fmt::format("above {:.4g} mm", v.bottom / millimetre));
+    if (v.closes_after && !(*v.closes_after > v.opens_after))
+      add("closes_after", fmt::format("{:.4g} s is not after opens_after", *v.closes_after),
+          fmt::format("above {:.4g} s", v.opens_after));
+    if (v.repeats_every && !(v.closes_after && *v.repeats_every > *v.closes_after - v.opens_after))
+      add("repeats_every",
+          v.closes_after ? "is not longer than the gate is open" : "given, but the gate does not close",
+          v.closes_after ? fmt::format("above {:.4g} s", *v.closes_after - v.opens_after) : "with closes_after");
+    if (v.closes_after && p.air.enabled) add("closes_after", "a gate that closes, and air", "left out with air");
     if (v.adhesion && !has_cohesion(p))
       add("adhesion", "the grains do not stick together", "a law with cohesion, such as tensile_strength above 0");
     if (!v.centre.empty() && v.centre.size() != 2) add("centre", "is no place", "two lengths, x and y");

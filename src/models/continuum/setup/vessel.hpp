@@ -87,6 +87,7 @@ struct VesselPart {
   std::optional<std::array<double, 3>> belt;
   bool gate = false;
   double opens_after = 0;
+  std::optional<double> closes_after, repeats_every;
 
   /// What the file holds, as it stands there, without the unit. Not a key: who reads the case fills it in.
   std::shared_ptr<const DrawnSurface> drawn = nullptr;
@@ -230,6 +231,12 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
     auto gated = only_if(where(key("gate"), v.gate, true), visit);
     gated(Parameter{key("opens_after"), dimension::time, at_least(0), "so long after the gate of the case opens"},
           v.opens_after);
+    gated(Parameter{key("closes_after"), dimension::time, at_least(0),
+                    "so long after the gate of the case opens it is there again; left out: it stays away"},
+          v.closes_after);
+    gated(Parameter{key("repeats_every"), dimension::time, above(0),
+                    "after which it opens and closes again, as long as the run lasts; left out: it does so once"},
+          v.repeats_every);
   }
 }
 

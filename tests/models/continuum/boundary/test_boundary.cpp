@@ -49,16 +49,43 @@ TEST(Boundary, OpensItsGatesWhenTheyAreDueAndACopyHasItsOwn) {
   Boundary boundary = shut;
   EXPECT_FALSE(boundary.has_gates_due(-1));
   EXPECT_TRUE(boundary.has_gates_due(1));
-  boundary.open_gates(1);
+  boundary.move_gates(1);
   EXPECT_EQ(boundary.openings(), 1);
   EXPECT_TRUE(boundary.vessel().is_open(0));
   EXPECT_FALSE(boundary.has_gates_due(1)) << "opened";
   EXPECT_TRUE(boundary.has_gates_due(2));
-  boundary.open_gates(2);
+  boundary.move_gates(2);
   EXPECT_EQ(boundary.openings(), 2);
   EXPECT_FALSE(boundary.vessel().is_open(2)) << "no gate";
   EXPECT_EQ(shut.openings(), 0);
   EXPECT_EQ(shut.vessel().triangles().data(), boundary.vessel().triangles().data()) << "made once";
+}
+
+TEST(Boundary, ShutsGatesAgainWhenTheyAreDue) {
+  Parameters p = room(12, 12, 12);
+  p.vessel = {disc("first", 4, 2), disc("second", 4, 4)};
+  p.vessel[0].gate = p.vessel[1].gate = true;
+  p.vessel[0].closes_after = 3;
+  Boundary boundary(p);
+  EXPECT_FALSE(boundary.shut_since(-1)) << "not opened yet";
+  EXPECT_FALSE(boundary.shut_since(4)) << "the second stays away";
+  boundary.move_gates(1);
+  EXPECT_TRUE(boundary.vessel().is_open(0) && boundary.vessel().is_open(1));
+  EXPECT_FALSE(boundary.has_gates_due(2));
+  EXPECT_TRUE(boundary.has_gates_due(3));
+  boundary.move_gates(3);
+  EXPECT_FALSE(boundary.vessel().is_open(0));
+  EXPECT_TRUE(boundary.vessel().is_open(1));
+  p.vessel[1].closes_after = 5;
+  EXPECT_EQ(Boundary(p).shut_since(9), 5);
+  p.vessel[1].opens_after = 4, p.vessel[1].repeats_every = 3;
+  EXPECT_EQ(Boundary(p).shut_since(12.5), 11);
+  EXPECT_FALSE(Boundary(p).shut_since(10.5)) << "open again";
+  for (const auto& [time, away] :
+       {std::pair(3.9, false), {4, true}, {4.9, true}, {5, false}, {6.9, false}, {7, true}, {8, false}}) {
+    boundary = Boundary(p), boundary.move_gates(time);
+    EXPECT_EQ(boundary.vessel().is_open(1), away) << time;
+  }
 }
 
 TEST(Layout, KeepsItsBoundaryForOtherBeds) {

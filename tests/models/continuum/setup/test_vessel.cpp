@@ -304,7 +304,7 @@ TEST(Vessel, NothingLeaksFromASilo) {
   std::size_t passed = 0;
   while (s.time < 0.12) {
     const auto before = by_identity(s, s.position);
-    if (s.gate_time >= 0) boundary.open_gates(s.time - s.gate_time);
+    if (s.gate_time >= 0) boundary.move_gates(s.time - s.gate_time);
     model.advance(team);
     const auto after = by_identity(s, s.position);
     passed = 0;
@@ -319,6 +319,37 @@ TEST(Vessel, NothingLeaksFromASilo) {
   EXPECT_GT(passed, count / 50);
   EXPECT_EQ(s.position.size(), count);
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
+}
+
+/// Shut into the stream: what is above stays above, and a run resumed before or after it keeps its bits.
+TEST(Vessel, AGateThatClosesHoldsWhatIsAboveIt) {
+  Parameters p = small_silo();
+  p.vessel[2].closes_after = 0.06;
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(2), one(1);
+  Continuum model = started(p, team), resumed(p);
+  const State& s = model.state();
+  const auto below = [&] {
+    return std::count_if(s.position.begin(), s.position.end(), [](const Vector3& x) { return x.z < 9 * spacing; });
+  };
+  const auto restart = [&] { resumed.mutable_state() = s, resumed.resume(one); };
+  const auto run_both_to = [&](double time) {
+    restart();
+    while (s.time < time) model.advance(team), resumed.advance(one);
+    EXPECT_EQ(s.position, resumed.state().position);
+  };
+  while (s.time < 0.075) model.advance(team);
+  run_both_to(0.0801);
+  const std::ptrdiff_t passed = below();
+  EXPECT_GT(passed, 10);
+  run_both_to(0.09);
+  while (s.time < 0.12) model.advance(team);
+  EXPECT_EQ(below(), passed);
+  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
+  double fastest = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    if (s.position[i].z > 9 * spacing) fastest = std::max(fastest, norm(s.velocity[i]));
+  EXPECT_LT(fastest, 0.5) << "nobody is shot out of the gate";
 }
 
 TEST(Vessel, NothingLeaksAroundACornerThatPointsIntoTheBed) {
