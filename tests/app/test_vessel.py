@@ -173,6 +173,21 @@ gate = true
         for name in ("discharged_mass_lid", "discharge_rate_beverloo_second", "particles_across_second", "grains_across_lid"):
             self.assertIn(name, quantities)
 
+    def test_a_gate_that_closes_ends_the_flow_and_says_so(self):
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        closing = CASE.replace('gate = true', 'gate = true\ncloses_after = "30 ms"')
+        (self.folder / "case.toml").write_text(closing)
+        self.talus("run", "case.toml", "--out", "run", "--set", 'run.end="70 ms"', "--set", 'output.series="1 ms"')
+        summary = json.loads((self.folder / "run/summary.json").read_text())
+        flow = next(result["value"] for result in summary["key_results"] if result["title"] == "Flow")
+        self.assertTrue(flow.startswith("was shut after 30 ms: "), flow)
+        for keys, text in (('opens_after = "40 ms"\ncloses_after = "30 ms"',
+                            "vessel.2.closes_after: 0.03 s is not after opens_after; allowed: above 0.04 s"),
+                           ('repeats_every = "30 ms"', "vessel.2.repeats_every: given, but the gate does not close"),
+                           ('closes_after = "30 ms"\nrepeats_every = "30 ms"', "vessel.2.repeats_every: is not longer")):
+            (self.folder / "case.toml").write_text(CASE.replace("gate = true", "gate = true\n" + keys))
+            self.assertIn(text, self.talus("run", "case.toml", "--out", "other", status=2).stderr)
+
     def test_a_file_that_is_none_is_refused(self):
         (self.folder / "wall.stl").write_bytes(b"solid wall\nfacet normal 0 0 0\nouter loop\nvertex 1 2\n")
         said = self.talus("check", "case.toml", status=2).stderr

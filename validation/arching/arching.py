@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Grains of uniform strength over outlets of a wedge and a cone: at which strength do they arch?
+"""Grains of uniform strength over outlets of a wedge and a cone, and grains whose strength grows with what they bear, in a wedge
+after flow through a wider outlet: at which strength do they arch?
 
-    validation/arching/arching.py [--out results/arching] [--threads N] [--markdown FILE] [--picture FILE] [--only wedge cone]
+    validation/arching/arching.py [--out results/arching] [--threads N] [--markdown FILE] [--picture FILE] [--only wedge cone flow]
 
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy, python3-h5py and
 python3-matplotlib."""
@@ -11,6 +12,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
@@ -18,8 +21,9 @@ import talus  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 M, DENSITY, GRAVITY, HALF_ANGLE, BOTTOM = 0.5, 1500.0, 9.81, 20.0, 60.0  # SI, degrees, mm
-FACTOR = {"wedge": 1 + HALF_ANGLE / 180, "cone": 2 + HALF_ANGLE / 60}
-SERIES = {"wedge": [(60, 1), (90, 1), (120, 1), (60, 2)], "cone": [(60, 1), (60, 2)]}
+FACTOR = {"wedge": 1 + HALF_ANGLE / 180, "cone": 2 + HALF_ANGLE / 60, "flow": 1 + HALF_ANGLE / 180}
+SERIES = {"wedge": [(60, 1), (90, 1), (120, 1), (60, 2)], "cone": [(60, 1), (60, 2)], "flow": [(60, 1)]}
+REOPENS, ENDS = 0.8, 1.3  # s after the first opening: of flow.toml
 
 
 def tensile_strength(kind, outlet, ratio, gravity):
@@ -30,6 +34,8 @@ def tensile_strength(kind, outlet, ratio, gravity):
 
 def settings_of(kind, outlet, ratio, gravity):
     """Lengths go with the outlet, the moduli with the weight."""
+    if kind == "flow":  # a_0 by itself, Pa
+        return {"law.critical-state.tensile_strength": f"{ratio:g} Pa", "output.report": False, "output.pictures": False}
     size, tan = outlet / 60, math.tan(math.radians(HALF_ANGLE))
     settings = {"law.critical-state.tensile_strength": f"{tensile_strength(kind, outlet, ratio, gravity):.6g} Pa",
                 "law.critical-state.bulk_modulus": f"{2 * size * gravity:.6g} MPa",
@@ -56,10 +62,27 @@ def cases(options):
         yield HERE / f"{kind}.toml", folder, settings_of(kind, outlet, ratio, gravity)
 
 
+def ratio_and_arch(ratio, run):
+    return ratio, run.summary["residual_fraction"] > REFERENCE["left"]
+
+
+def strength_and_arch(adhesion, run):
+    """Ratio f_c H/(rho g B) by the mean strength a = a_0 + what loads added above the narrow outlet, up to its width, just before it
+    opens; whether hardly anything passes it."""
+    before = [s for s in run.snapshots if s.time - run.gate_time < REOPENS][-1]
+    x, width = before.positions, 0.06
+    above = (np.abs(x[:, 0] - 0.14) < 0.5 * width) & (x[:, 2] > 0.06) & (x[:, 2] < 0.06 + width)
+    strength = adhesion + before["strengthening"][above].mean()
+    time, gone = np.asarray(run.series["time"]) - run.gate_time, np.asarray(run.series["removed_mass"])
+    passed = np.subtract(*np.interp([ENDS, 0.5 * (REOPENS + ENDS)], time, gone)) / (0.5 * (ENDS - REOPENS))
+    wide = np.subtract(*np.interp([0.55, 0.45], time, gone)) / 0.1
+    return strength / tensile_strength("flow", 60, 1, 1), bool(passed < REFERENCE["passes"] * wide)
+
+
 def ratio_at_failure(options, kind, outlet, gravity):
     """The middle between the largest that flows and the smallest that arches."""
-    arched = [(ratio, talus.Run(folder).summary["residual_fraction"] > REFERENCE["left"])
-              for k, o, g, ratio, folder in runs(options) if (k, o, g) == (kind, outlet, gravity)]
+    state = strength_and_arch if kind == "flow" else ratio_and_arch
+    arched = [state(ratio, talus.Run(folder)) for k, o, g, ratio, folder in runs(options) if (k, o, g) == (kind, outlet, gravity)]
     flags = [flag for _, flag in arched]
     if flags != sorted(flags) or all(flags) or not any(flags):
         sys.exit(f"{kind}, {outlet} mm: no strength at failure among {arched}")
@@ -72,7 +95,8 @@ def measure(options):
     numbers = {}
     for kind, ratios in found.items():
         numbers |= {f"{kind}-{outlet}": 1 / ratio for (outlet, gravity), ratio in ratios.items() if gravity == 1}
-        numbers[f"{kind}-heavy"] = 2 * ratios[60, 2] / ratios[60, 1]
+        if (60, 2) in ratios:
+            numbers[f"{kind}-heavy"] = 2 * ratios[60, 2] / ratios[60, 1]
     return numbers, found
 
 

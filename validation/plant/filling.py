@@ -20,7 +20,7 @@ import talus  # noqa: E402
 REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
              if name.startswith("filling-")}
 AXIS, RADIUS, BASE, SPOUT = 1.35, 1.25, 0.1, 0.85  # m
-SPACING, RATE, DURATION = 0.04, 25.0, 160.0  # m, kg/s, s; of the half
+SPACING, RATE, DURATION = 0.05, 50.0, 60.0  # m, kg/s, s; of the half
 
 
 def cases(options):

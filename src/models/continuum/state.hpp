@@ -227,7 +227,7 @@ void for_each_field(Visit&& visit, S& s) {
   for (std::size_t c = 0; c < 6 && s.has.collisional; ++c)
     visit(FieldInfo{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
-    visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
+    visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, s.slots[k].in_snapshots}, s.material.history[k]);
   visit(FieldInfo{"mass", "kg"}, s.mass);
   if (s.has.reset_position) visit(FieldInfo{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
   if (s.has.sector_turns) visit(FieldInfo{"sector_turns", "1", FieldRole::kept, false}, s.sector_turns);

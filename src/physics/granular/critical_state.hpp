@@ -173,7 +173,7 @@ class CriticalState {
     visit(HistorySlot{"contacts", "1"}, history.contacts);
     for_each_tensor_slot(visit, {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy", "fabric_yz", "fabric_zx"}, "1",
                          history.fabric);
-    visit(HistorySlot{"strengthening", "Pa"}, history.strengthening);
+    visit(HistorySlot{"strengthening", "Pa", 0, 0, true}, history.strengthening);
   }
 
   template <class Number>

@@ -26,6 +26,7 @@ struct HistorySlot {
   const char* unit;  ///< SI; "1" for numbers
   /// Of a tensor's component, its two axes (0, 1, 2): in a mirror across one of two different axes it changes sign.
   int axis = 0, other_axis = 0;
+  bool in_snapshots = false;  ///< a user reads it, not the law alone
 };
 
 /// A material point. A new one is all zeros: no stress, no history.
