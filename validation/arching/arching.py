@@ -23,7 +23,7 @@ REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 M, DENSITY, GRAVITY, HALF_ANGLE, BOTTOM = 0.5, 1500.0, 9.81, 20.0, 60.0  # SI, degrees, mm
 FACTOR = {"wedge": 1 + HALF_ANGLE / 180, "cone": 2 + HALF_ANGLE / 60, "flow": 1 + HALF_ANGLE / 180}
 SERIES = {"wedge": [(60, 1), (90, 1), (120, 1), (60, 2)], "cone": [(60, 1), (60, 2)], "flow": [(60, 1)]}
-REOPENS, ENDS = 0.8, 1.3  # s after the first opening: of flow.toml
+REOPENS, ENDS, KAPPA = 0.8, 1.3, 0.1  # of flow.toml; s after the first opening
 
 
 def tensile_strength(kind, outlet, ratio, gravity):
@@ -67,12 +67,12 @@ def ratio_and_arch(ratio, run):
 
 
 def strength_and_arch(adhesion, run):
-    """Ratio f_c H/(rho g B) by the mean strength a = a_0 + what loads added above the narrow outlet, up to its width, just before it
-    opens; whether hardly anything passes it."""
+    """Ratio f_c H/(rho g B) by the strength a = a_0 + kappa p that the mean pressure above the narrow outlet, up to its width, gives
+    grains just before it opens; whether hardly anything passes it."""
     before = [s for s in run.snapshots if s.time - run.gate_time < REOPENS][-1]
     x, width = before.positions, 0.06
     above = (np.abs(x[:, 0] - 0.14) < 0.5 * width) & (x[:, 2] > 0.06) & (x[:, 2] < 0.06 + width)
-    strength = adhesion + before["strengthening"][above].mean()
+    strength = adhesion + KAPPA * np.mean([before[f"stress_{axis}"][above].mean() for axis in ("xx", "yy", "zz")])
     time, gone = np.asarray(run.series["time"]) - run.gate_time, np.asarray(run.series["removed_mass"])
     passed = np.subtract(*np.interp([ENDS, 0.5 * (REOPENS + ENDS)], time, gone)) / (0.5 * (ENDS - REOPENS))
     wide = np.subtract(*np.interp([0.55, 0.45], time, gone)) / 0.1
