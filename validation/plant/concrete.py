@@ -23,6 +23,7 @@ AXIS = 3.2  # m
 SIDES = {"outlet's side": (0, 45), "beside": (45, 135), "far side": (135, 180)}  # degrees from the outlet's direction
 HEIGHTS = np.arange(1, 23, 2)  # m, lower ends of bands
 MEASURED = slice(1, 4)  # of these: 3 to 9 m
+FROM = 10.0  # s after the opening
 
 
 def cases(options):
@@ -47,8 +48,9 @@ def measure(options):
     run = talus.Run(options.out / "silo")
     rest, flow = pressures(run, "pressure_at_rest"), pressures(run, "pressure_in_flow")
     still, channel, beside = rest[MEASURED, 0].mean(), flow[MEASURED, 0].mean(), flow[MEASURED, 1].mean()
-    quantities = run.summary
-    numbers = {"concrete-rate": quantities["discharge_rate_steady"] / quantities["discharge_rate_beverloo"],
+    time, gone = np.asarray(run.series["time"]) - run.gate_time, np.asarray(run.series["removed_mass"])
+    rate = (gone[-1] - np.interp(FROM, time, gone)) / (time[-1] - FROM)
+    numbers = {"concrete-rate": rate / run.summary["discharge_rate_beverloo"],
                "concrete-channel": channel / still, "concrete-beside": beside / (2 * still - channel)}
     return numbers, {"run": run, "rest": rest, "flow": flow}
 

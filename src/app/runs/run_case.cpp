@@ -151,7 +151,10 @@ void check_resumable(const PreparedCase& prepared, const RunFolder& folder, cons
         "integration.instruction_set",
         fmt::format("{} in the run there, {} now: the bits would differ", then.instruction_set, now.instruction_set),
         fmt::format("\"{}\"", then.instruction_set));
-  if (problems.empty() && then.fingerprint != now.fingerprint)
+  if (problems.empty() && then.fingerprint != now.fingerprint && then.revision != now.revision)
+    differs("case", fmt::format("begun by revision {} of the program, this is {}", then.revision, now.revision),
+            "the same program, with the same files, to resume, or --overwrite");
+  else if (problems.empty() && then.fingerprint != now.fingerprint)
     differs("particles.file", "its points are not those that the run there began with", "the same points");
   if (!problems.empty()) throw InputError(problems);
 }
