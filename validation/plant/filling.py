@@ -21,6 +21,7 @@ REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").
              if name.startswith("filling-")}
 AXIS, RADIUS, BASE, SPOUT = 1.35, 1.25, 0.1, 0.85  # m
 SPACING, RATE, DURATION = 0.05, 50.0, 60.0  # m, kg/s, s; of the half
+PARTICLE = 1350 * 0.6 * SPACING**3  # kg
 
 
 def cases(options):
@@ -48,10 +49,12 @@ def measure(options):
     last = run.snapshots[-1]
     x, z = surface(last.positions)
     apex = x[np.argmax(z)]
-    far = (x > apex + 0.25) & (x < AXIS + RADIUS - 0.15)
+    far = (x > SPOUT + 0.6) & (x < AXIS + RADIUS - 0.15)
     near = (x < apex - 0.15) & (x > AXIS - RADIUS + 0.1)
+    place = last.positions
+    inside = (np.hypot(place[:, 0] - AXIS, place[:, 1]) < RADIUS) & (place[:, 2] > BASE)
     numbers = {"filling-slope": slope(x[far], z[far]), "filling-apex": apex - SPOUT,
-               "filling-mass": np.asarray(run.series["mass"])[-1] / (RATE * DURATION) - 1}
+               "filling-mass": PARTICLE * inside.sum() / (RATE * DURATION) - 1}
     return numbers, {"run": run, "x": x, "z": z, "apex": apex, "near": slope(x[near], z[near])}
 
 
