@@ -77,9 +77,9 @@ Handle Writer::write_raw(const std::string& name, hid_t type, std::span<const hs
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   if (storage_ == Storage::deflated && !shape.empty() && shape[0] > deflated_piece) {
-    std::vector<hsize_t> piece(shape.begin(), shape.end());
-    piece[0] = deflated_piece;
-    H5Pset_chunk(creation.id(), static_cast<int>(piece.size()), piece.data());
+    std::vector<hsize_t> chunk(shape.begin(), shape.end());
+    chunk[0] = deflated_piece;
+    H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data());
     H5Pset_shuffle(creation.id());
     H5Pset_deflate(creation.id(), 1);
   } else {

@@ -38,7 +38,7 @@ class Answers : public ::testing::Test {
     for (NamedValue& q : quantities)
       if (q.name == name) q.value = value;
   }
-  std::vector<Answer> all() const { return answers_of(continuum::Setup(small_silo()), quantities, folder); }
+  std::vector<Answer> all() const { return answers_of(continuum::Setup(small_silo()), quantities, 1, folder); }
   Answer find(const std::string& question) const {
     for (const Answer& answer : all())
       if (answer.question == question) return answer;
@@ -97,7 +97,7 @@ TEST_F(Answers, OfAFlowThatGoesOnOrNeverBeganSaySo) {
 TEST_F(Answers, OfACohesivePowderSayWhereItArchedOrThatAChannelStands) {
   continuum::Parameters sticky = small_silo();
   sticky.law = granular::CriticalState::Parameters{.static_friction = 0.5, .tensile_strength = 200};
-  const auto flow = [&] { return answers_of(continuum::Setup(sticky), quantities, folder); };
+  const auto flow = [&] { return answers_of(continuum::Setup(sticky), quantities, 1, folder); };
   set("emptying_time", none), set("residual_fraction", 1), set("residual_mass", 0.44), set("flow_stop_time", none);
   set("outlet_packing", 0.55);
   EXPECT_EQ(flow().front().answer, "arched at once, over the outlet: 440 g (100 %) left");
@@ -185,7 +185,7 @@ TEST_F(Answers, OfABoxAreThoseOfItsWalls) {
   quantities.clear();
   continuum::Parameters p;
   p.box.width = p.box.depth = p.box.height = p.bed.height = 1, p.bed.spacing = 0.1;
-  const std::vector<Answer> answers = answers_of(continuum::Setup(p), quantities, folder);
+  const std::vector<Answer> answers = answers_of(continuum::Setup(p), quantities, 1, folder);
   ASSERT_EQ(answers.size(), 4u);
   EXPECT_EQ(answers[0].question, "Pressure at rest, left");
   EXPECT_EQ(answers[0].answer, "1.5 kPa at z = 100 mm");
