@@ -10,6 +10,7 @@ import os
 import re
 import sys
 import textwrap
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -189,6 +190,12 @@ def table_of_numbers(reference, numbers, digits=3):
         lines.append([row["says"], f"{value:.{digits}f}", f"{row['value']:g} ± {row['tolerance']:g}",
                       "met" if is_met(row, value) else "**not met**"])
     return _lines(lines)
+
+
+def rows_of(folder, *beginnings):
+    """The rows of a folder's reference.toml whose names begin so."""
+    rows = tomllib.loads((Path(folder) / "reference.toml").read_text(encoding="utf-8"))
+    return {name: row for name, row in rows.items() if name.startswith(beginnings)}
 
 
 def compare(script, text, out, reference, cases, measure, tell, draw, spacing=None, add_options=None):

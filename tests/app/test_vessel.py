@@ -188,6 +188,13 @@ gate = true
             (self.folder / "case.toml").write_text(CASE.replace("gate = true", "gate = true\n" + keys))
             self.assertIn(text, self.talus("run", "case.toml", "--out", "other", status=2).stderr)
 
+    def test_a_changed_file_is_not_resumed(self):
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        self.talus("run", "case.toml", "--out", "run")
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall(28)))
+        self.assertIn("vessel.1.file: its points are not those that the run there began with",
+                      self.talus("run", "case.toml", "--out", "run", "--resume", status=2).stderr)
+
     def test_a_file_that_is_none_is_refused(self):
         (self.folder / "wall.stl").write_bytes(b"solid wall\nfacet normal 0 0 0\nouter loop\nvertex 1 2\n")
         said = self.talus("check", "case.toml", status=2).stderr

@@ -7,7 +7,6 @@
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy, python3-h5py and
 python3-matplotlib."""
 import sys
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +16,7 @@ sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
 import talus  # noqa: E402
 
-REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
-             if name.startswith("concrete-")}
+REFERENCE = study.rows_of(HERE, "concrete-")
 AXIS = 3.2  # m
 SIDES = {"outlet's side": (0, 45), "beside": (45, 135), "far side": (135, 180)}  # degrees from the outlet's direction
 HEIGHTS = np.arange(1, 23, 2)  # m, lower ends of bands

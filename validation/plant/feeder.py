@@ -7,7 +7,6 @@
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy and
 python3-matplotlib."""
 import sys
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +16,7 @@ sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
 import talus  # noqa: E402
 
-REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
-             if name.startswith("feeder-")}
+REFERENCE = study.rows_of(HERE, "feeder-")
 FROM, TO, AT_REST = 12.0, 26.0, 0.3  # s after the belt starts; s before
 SPEED, SECTION, DENSITY = 0.2, 0.48 * 0.24, 810.0  # m/s, m^2, kg/m^3
 QUARTERS = np.linspace(0.3, 1.5, 5)  # of the slot, m

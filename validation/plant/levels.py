@@ -7,7 +7,6 @@
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy and
 python3-matplotlib."""
 import sys
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +16,7 @@ sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
 import talus  # noqa: E402
 
-REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
-             if name.startswith("levels-")}
+REFERENCE = study.rows_of(HERE, "levels-")
 CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {}),
          "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}

@@ -7,7 +7,6 @@
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy and
 python3-matplotlib."""
 import sys
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +16,7 @@ sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
 import talus  # noqa: E402
 
-REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
-             if not name.startswith("levels-")}
+REFERENCE = study.rows_of(HERE, "softness-", "line", "loss")
 RUNS = [("draft", 0.025), ("design", 0.025), ("design", 0.1), ("reference", 0.1)]
 OVER_WEIGHT = {"draft": 62.5, "design": 250, "reference": 1000}
 OUTLET, HEIGHT, GRAVITY = 0.5, 1.0, 9.81  # m, m, m/s2

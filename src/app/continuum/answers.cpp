@@ -98,10 +98,11 @@ class FlowAnswers {
                                                                    share_text(std::abs(left_)))
                                                      : "nothing left";
     const double stopped = of("flow_stop_time"), emptied = of("emptying_time");
+    const double slack = 3 * setup_.scales.averaging_time;  // a gate that closed later found the flow stopped
     Answer answer{.question = "Flow", .answer = {}};
     if (std::isfinite(emptied))
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
-    else if (const auto shut = setup_.boundary->shut_since(end_))
+    else if (const auto shut = setup_.boundary->shut_since(end_); shut && !(stopped < *shut - slack))
       answer.answer = fmt::format("was shut after {}: {}", time_text(*shut), rest);
     else if (is_cohesive() && has_arch() && (std::isfinite(stopped) || !(discharged() > 1e-9)))
       answer.answer =

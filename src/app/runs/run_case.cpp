@@ -4,11 +4,13 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -125,6 +127,14 @@ Manifest manifest_of(const PreparedCase& prepared, int threads) {
   return manifest;
 }
 
+/// The keys of a case that name files of points or triangles. \param values of the case by key, as text
+std::string files_of(const std::map<std::string, std::string>& values) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : values)
+    if (key.ends_with(".file") && !value.empty() && value != "\"\"") keys.push_back(key);
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
 /// Checks that the run in a folder can be continued with this case; reads only. \throws InputError with every key that
 /// differs
 void check_resumable(const PreparedCase& prepared, const RunFolder& folder, const Manifest& now) {
@@ -155,7 +165,7 @@ void check_resumable(const PreparedCase& prepared, const RunFolder& folder, cons
     differs("case", fmt::format("begun by revision {} of the program, this is {}", then.revision, now.revision),
             "the same program, with the same files, to resume, or --overwrite");
   else if (problems.empty() && then.fingerprint != now.fingerprint)
-    differs("particles.file", "its points are not those that the run there began with", "the same points");
+    differs(files_of(values), "its points are not those that the run there began with", "the same points");
   if (!problems.empty()) throw InputError(problems);
 }
 

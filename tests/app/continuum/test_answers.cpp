@@ -94,6 +94,22 @@ TEST_F(Answers, OfAFlowThatGoesOnOrNeverBeganSaySo) {
   EXPECT_EQ(all().front().answer, "has not started: 440 g (100 %) left");
 }
 
+TEST_F(Answers, OfAGateThatClosedSaySoUnlessTheFlowHadStoppedBefore) {
+  continuum::Parameters closing = small_silo();
+  ASSERT_TRUE(closing.vessel.back().gate);
+  closing.vessel.back().closes_after = 0.5;
+  const auto flow = [&](double end) {
+    return answers_of(continuum::Setup(closing), quantities, end, folder).front().answer;
+  };
+  set("emptying_time", none), set("residual_fraction", 0.5), set("residual_mass", 0.44), set("flow_stop_time", none);
+  EXPECT_EQ(flow(0.4), "still flows at the end of the run: 440 g (50 %) left");
+  EXPECT_EQ(flow(0.6), "was shut after 0.5 s: 440 g (50 %) left");
+  set("flow_stop_time", 0.51), set("outlet_packing", 0.55);
+  EXPECT_EQ(flow(1), "was shut after 0.5 s: 440 g (50 %) left");
+  set("flow_stop_time", 0.2);
+  EXPECT_EQ(flow(1), "has stopped after 0.2 s with 440 g (50 %) left: arch over the outlet");
+}
+
 TEST_F(Answers, OfACohesivePowderSayWhereItArchedOrThatAChannelStands) {
   continuum::Parameters sticky = small_silo();
   sticky.law = granular::CriticalState::Parameters{.static_friction = 0.5, .tensile_strength = 200};
