@@ -191,7 +191,7 @@ gate = true
     def test_a_changed_file_is_not_resumed(self):
         (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
         self.talus("run", "case.toml", "--out", "run")
-        (self.folder / "wall.stl").write_text(ascii_stl(round_wall(28)))
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()[::-1]))
         self.assertIn("vessel.1.file: its points are not those that the run there began with",
                       self.talus("run", "case.toml", "--out", "run", "--resume", status=2).stderr)
 
