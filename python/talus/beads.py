@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The law critical-state from what beads do by discrete elements: sheared at constant volume and at constant pressure, and in
-layers on a slope (validation/bead-shear/*.in). Fits with intervals of 95 %. Tests: tests/python/test_bead_shear.py."""
+layers on a slope (validation/bead-shear/*.in); of beads that stick its cohesion. Fits with intervals of 95 %. Tests: tests/python/test_bead_shear.py."""
 import math
 
 import numpy as np
@@ -20,6 +20,9 @@ STILL, MOVES, SLOW = 0.005, 0.05, 0.3
 SLIDES = 1.0, 0.2  # between these mean velocities the friction of a flat wall is taken
 SECONDS = 2.0      # in which the slope falls
 GRAVITY, DIAMETER = 9.8, 1e-3  # as in incline.in
+#: Of beads that stick (cohesive.in): pressure over k/d; strain from which on they flow steadily; the largest attraction over pressure
+#: times d^2, C, that is computed.
+COHESIVE_PRESSURE, COHESIVE_STEADY, STICKIEST = 2e-4, 1.0, 5
 PLANE = 1.5        # thickness of the beads that are the plane, in diameters
 
 
@@ -101,6 +104,51 @@ def bulk_stiffness(packing, pressure):
     """dp/d ln(phi) of states that bear more than SOFT/5, in the unit of the pressure; nan of fewer than two."""
     firm = pressure > SOFT / 5
     return np.polyfit(np.log(packing[firm]), pressure[firm], 1)[0] if firm.sum() > 1 else math.nan
+
+
+def cohesive_state(table, bond):
+    """C, inertial number, friction and packing of cohesive.txt, means of its steady part. C is the attraction over sigma d^2, with
+    sigma at the centre of Mohr's circle, for which friction is taken too. \param bond the same over the pressure across"""
+    packing, xx, yy, zz, xy = table[table[:, 1] > COHESIVE_STEADY, 2:7].mean(axis=0)
+    centre = 0.5 * (xx + yy)
+    return (bond * COHESIVE_PRESSURE / centre, RATE / np.sqrt((xx + yy + zz) / 3), np.hypot(0.5 * (xx - yy), xy) / centre, packing)
+
+
+def strength(inertial, friction, law):
+    """a/sigma of steady shear in which tau = mu(I') (sigma + a), I' = I/(1 + a/sigma)^1/2. \param law mu_s, mu_2 and I_0"""
+    slow, fast, scale = law
+    total = friction / slow  # 1 + a/sigma
+    for _ in range(50):
+        total = friction / (slow + (fast - slow) / (1 + scale * np.sqrt(total) / inertial))
+    return total - 1
+
+
+def cohesive_friction(inertial, over, law):
+    """The reverse: tau/sigma. \param over a/sigma"""
+    slow, fast, scale = law
+    return (1 + over) * (slow + (fast - slow) / (1 + scale * np.sqrt(1 + over) / inertial))
+
+
+def cohesion_estimates(bond, over, doubt=0.0):
+    """alpha and kappa of a/sigma = kappa + alpha C, each an Estimate, by least squares with errors in proportion to 1 + a/sigma, as
+    the friction has them. What would be negative is 0, and then nothing is known of how far above. \param bond, over C and a/sigma
+    of each state; \param doubt half of the interval of the friction without cohesion over it: moves all 1 + a/sigma alike"""
+    columns = {"alpha": bond / (1 + over), "kappa": 1 / (1 + over)}
+    wanted = list(columns)
+    while wanted:
+        shape, target = np.column_stack([columns[name] for name in wanted]), over / (1 + over)
+        values = np.linalg.lstsq(shape, target, rcond=None)[0]
+        if (values >= 0).all():
+            break
+        wanted.remove(wanted[values.argmin()])
+    found = dict.fromkeys(columns, Estimate(0.0, 0.0, 0.0))
+    if wanted:
+        freedom = len(target) - len(wanted)
+        covariance = np.linalg.inv(shape.T @ shape) * np.sum((shape @ values - target) ** 2) / freedom
+        for name, value, error in zip(wanted, values, np.sqrt(np.diag(covariance))):
+            half = np.hypot(student(freedom) * error, doubt * (value + (name == "kappa")))
+            found[name] = Estimate(float(value), float(max(value - half, 0)), float(value + half))
+    return found["alpha"], found["kappa"]
 
 
 def mean_estimate(values, scatter):

@@ -71,6 +71,42 @@ class Fits(unittest.TestCase):
         self.assertAlmostEqual(critical, 0.56, delta=0.001)
         self.assertAlmostEqual(slow, 0.48, delta=0.005)
 
+    def test_the_cohesion_of_states_on_a_line_is_that_line(self):
+        bond, law = np.array([0.3, 1, 2.5, 5]), (0.48, 0.72, 0.27)
+        over = 0.05 + 0.2 * bond
+        np.testing.assert_allclose(beads.strength(0.014, beads.cohesive_friction(0.014, over, law), law), over)
+        self.assertAlmostEqual(beads.strength(1e-9, 0.72, law), 0.5)  # slow: friction over mu_s
+        alpha, kappa = beads.cohesion_estimates(bond, over, 0.02)
+        self.assertAlmostEqual(alpha.value, 0.2)
+        self.assertAlmostEqual(kappa.value, 0.05)
+        # A friction without cohesion that is 2 % off moves every 1 + a/sigma by as much.
+        self.assertAlmostEqual(alpha.high - alpha.value, 0.004)
+        self.assertAlmostEqual(kappa.high - kappa.value, 0.021)
+
+    def test_intervals_of_cohesion_hold_the_line_19_times_of_20(self):
+        noise, bond, trials = np.random.default_rng(7), np.array([0.3, 0.6, 1, 2.5, 5]), 400
+        over, held = 0.3 + 0.2 * bond, np.zeros(2)
+        for _ in range(trials):
+            found = beads.cohesion_estimates(bond, over + 0.02 * (1 + over) * noise.standard_normal(5))
+            held += [one.low <= value <= one.high for one, value in zip(found, (0.2, 0.3))]
+        for share in held / trials:
+            self.assertAlmostEqual(share, 0.95, delta=0.03)
+
+    def test_a_strength_that_would_be_negative_is_none(self):
+        bond = np.array([1.0, 2, 4])
+        alpha, kappa = beads.cohesion_estimates(bond, 0.2 * bond - 0.05)
+        self.assertEqual(kappa.value, 0)
+        self.assertAlmostEqual(alpha.value, 0.18, delta=0.01)
+        self.assertEqual([one.value for one in beads.cohesion_estimates(bond, -0.1 * bond)], [0, 0])
+
+    def test_the_state_of_beads_that_stick_is_that_of_their_steady_part(self):
+        table = np.array([[0, 0.5, 0.6, 9, 9, 9, 9], [1, 1.2, 0.5, 3e-4, 1e-4, 1e-4, -2e-4], [2, 1.4, 0.48, 3e-4, 1e-4, 1e-4, -2e-4]])
+        bond, inertial, friction, packing = beads.cohesive_state(table, 3)
+        self.assertAlmostEqual(bond, 3)
+        self.assertAlmostEqual(inertial, beads.RATE / (5e-4 / 3) ** 0.5)
+        self.assertAlmostEqual(friction, 5**0.5 / 2)
+        self.assertAlmostEqual(packing, 0.49)
+
 
 class States(unittest.TestCase):
     def test_dense_beads_dilate_twice_as_fast_as_their_friction_rises(self):
