@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """talus calibrate --grains and --repose, as a user meets them: refusals, a material that a case takes, and calibrations that are
 killed. LAMMPS is a stand-in whose beads follow a law that is known."""
+import math
 import os
 import random
 import re
@@ -10,6 +11,7 @@ import sys
 import time
 import tomllib
 
+import numpy as np
 from program import PROGRAM, PROJECT, ProgramTest
 
 BEADS = """[beads]
@@ -51,6 +53,9 @@ report = false
 LAW = {"static_friction": 0.45, "dynamic_friction": 0.7, "inertial_number": 0.3, "critical_packing": 0.56, "packing_slope": 0.1,
        "dilatancy": 8}
 START, WALL = 33, 0.25
+# Of those that stick: a/sigma = KAPPA + ALPHA C in steady shear, and the weight of a bead, N.
+ALPHA, KAPPA = 0.2, 0.05
+WEIGHT = 2500 * math.pi / 6 * 1.25e-3**3 * 9.8
 LMP = f"""#!{sys.executable} -S
 import math, os, sys, time
 words = sys.argv[1:]
@@ -96,7 +101,13 @@ def incline():
     if have["up"]:
         write("start.txt", [(slope, float(slope >= {START}), 10, 6) for slope in range(10, 40)])
 
-{{"shear.in": shear, "dilate.in": dilate, "incline.in": incline}}[script]()
+def cohesive():
+    over, pressure = 1 + {KAPPA} + {ALPHA} * have["bond"], 2e-4
+    friction = over * (slow + (fast - slow) / (1 + scale * (over * pressure) ** 0.5 / 2e-4))
+    steady = [pressure, pressure, pressure, friction * pressure]
+    write("cohesive.txt", [(0.05 * n, critical - 0.02 * have["bond"], *(steady if n > 19 else [1, 1, 1, 9])) for n in range(31)])
+
+{{"shear.in": shear, "dilate.in": dilate, "incline.in": incline, "cohesive.in": cohesive}}[script]()
 with open(os.environ["JOBS_LOG"], "a") as log:
     log.write(os.getcwd() + "\\n")
 """
@@ -165,7 +176,46 @@ class FromBeads(ProgramTest):
         for word in ("ageing_adds = false", f"static_friction = {law['static_friction']['value']}", "diameter = \\\"0.00125 m\\\""):
             self.assertIn(word, manifest)
 
+    def stick(self, line):
+        (self.folder / "beads.toml").write_text(BEADS.replace("restitution = 0.8", f"restitution = 0.8\n{line}"))
+
+    def test_beads_that_stick_have_the_strength_of_their_cells_and_a_case_takes_it(self):
+        self.stick("bond_number = 10")
+        self.calibrate("--out", "my-grains.toml")
+        material = tomllib.loads((self.folder / "my-grains.toml").read_text())
+        law, stress = material["law"]["critical-state"], 10 * WEIGHT / 1.25e-3**2
+        strength, low, high, *ends = (float(text.removesuffix(" Pa")) for text in (
+            law["tensile_strength"]["value"], *law["tensile_strength"]["range"], *material["pressure"]["range"]))
+        self.assertAlmostEqual(strength / (ALPHA * stress), 1, delta=0.05)
+        self.assertTrue(low < strength < high)
+        self.assertAlmostEqual(law["consolidation_strength"]["value"], KAPPA, delta=0.02)
+        self.assertAlmostEqual(law["critical_packing"]["value"], 0.54)  # of C = 1
+        np.testing.assert_allclose(law["critical_packing"]["range"], [0.46, 0.554])
+        np.testing.assert_allclose(ends, [stress / 5, stress / 0.3], 1e-3)
+        self.assertAlmostEqual(law["static_friction"]["value"], 0.45, delta=0.02)  # as without
+        self.assertIn("without cohesion", law["dilatancy"]["source"])
+        (self.folder / "case.toml").write_text(CASE)
+        self.talus("run", "case.toml", "--out", "run")
+        manifest = (self.folder / "run" / "manifest.json").read_text()
+        for key in ("tensile_strength", "consolidation_strength"):
+            self.assertIn(str(law[key]["value"]), manifest)
+
+    def test_cohesion_adds_cells_to_those_without_whatever_its_key_and_size(self):
+        counts, strengths = [], []
+        energy = 20 * WEIGHT / (3 * math.pi / 8 * 1.25e-3)
+        for line in ("", "bond_number = 0", "bond_number = 20", f'surface_energy = "{energy} J/m2"', "bond_number = 40"):
+            self.stick(line)
+            self.calibrate("--out", "my-grains.toml")
+            material = tomllib.loads((self.folder / "my-grains.toml").read_text())
+            law = material["law"]["critical-state"]
+            self.assertEqual(material["pressure"]["range"][1], "800 Pa")  # overlaps, before the attraction is less than was computed
+            strengths.append(float(law.get("tensile_strength", {"value": "0 Pa"})["value"].removesuffix(" Pa")))
+            counts.append(len(self.jobs()))
+        self.assertEqual(counts, [12, 12, 16, 16, 16])
+        np.testing.assert_allclose(np.array(strengths) / strengths[2], [0, 0, 1, 1, 2], 1e-4)
+
     def test_a_calibration_that_is_killed_ends_with_the_same_file(self):
+        self.stick("bond_number = 20")
         self.calibrate("--jobs", "2", "--out", "whole.toml")
         count = len(self.jobs())
         self.log.unlink()
@@ -224,6 +274,8 @@ stiffness = "1000 N/m"
 spread = 0.7
 friction = "high"
 cohesion = 3
+surface_energy = "0.05 J"
+bond_number = -1
 restitution = 0.8
 [walls.stel]
 friction = 0.3
@@ -231,10 +283,20 @@ friction = 0.3
         said = self.calibrate("--diameter", "1 mm", "--out", "my-grains.txt", status=2)
         for words in (r"beads.toml:2: diameter: .*allowed: a quantity above 0 m", r"beads.toml:3: densty: is no key.*'density'",
                       r"beads.toml:5: spread: 0.7 will not do; allowed: a number from 0.05 to 0.2", r"beads.toml:6: friction: ",
-                      r"beads.toml:7: cohesion: .*--shear-cell", r"beads.toml:1: rolling_friction: missing", r"beads.toml:1: density: missing",
-                      r"beads.toml:9: walls.stel: .*'steel'", r"--diameter: takes --shear-cell or --repose", r"--out my-grains.txt", "10 problems"):
+                      r"beads.toml:7: cohesion: is no key.*'bond_number'",
+                      r"beads.toml:8: surface_energy: .*allowed: the work of adhesion of two beads, from 0 on J/m2",
+                      r"beads.toml:9: bond_number: -1 will not do", r"beads.toml:9: bond_number: is given besides surface_energy",
+                      r"beads.toml:1: rolling_friction: missing", r"beads.toml:1: density: missing",
+                      r"beads.toml:11: walls.stel: .*'steel'", r"--diameter: takes --shear-cell or --repose", r"--out my-grains.txt", "13 problems"):
             self.assertTrue(re.search(words, said), f"{words}\n{said}")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["beads.toml", "bin", "case.toml"])
+        for line, words in (("bond_number = 300", r"bond_number: 300 will not do; allowed: a number from 0 to 249: "),
+                            ("bond_number = 'large'", r"bond_number: is of another type"),
+                            ('surface_energy = "5 J/m2"', r'surface_energy: "5 J/m2" will not do; .* from 0 to 4.24 J/m2'),
+                            ('adhesion = "1 J/m2"', r"adhesion: is no key of beads.*'surface_energy'")):
+            self.stick(line)
+            self.assertRegex(self.calibrate("--out", "my-grains.toml", status=2), words)
+        self.assertFalse(self.jobs())
         (self.folder / "beads.toml").write_text('walls = 3\n[beads]\n', encoding="utf-8")
         self.assertRegex(self.calibrate("--out", "my-grains.toml", status=2), r"beads.toml:1: walls: is of another type")
         self.assertIn("takes one of", self.calibrate("--repose", "30deg", "--out", "my-grains.toml", status=2))

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The file of beads that talus calibrate --grains reads."""
+import math
 from dataclasses import dataclass, field
 
+from talus import beads as fits
 from talus.ask import ask
 from talus.lab.material_file import WALLS
 from talus.lab.toml_reader import TomlReader
@@ -10,7 +12,10 @@ from talus.trouble import InputError, nearest
 #: With units, in which they are given; plain numbers with the ends of what is allowed.
 QUANTITIES = {"diameter": ("m", "1.25 mm"), "density": ("kg/m3", "2500 kg/m3"), "stiffness": ("N/m", "1000 N/m")}
 NUMBERS = {"spread": (0.05, 0.2), "friction": (0.0, 2.0), "rolling_friction": (0.0, 1.0), "restitution": (0.1, 0.99)}
-COHESIVE = ("cohesion", "bond_number", "surface_energy", "adhesion")
+#: What holds beads together is given by one of these: the work of adhesion w of two beads (twice the surface energy of one surface)
+#: in JKR's pull-off force F_c = 3/2 pi w R_eff, R_eff of beads of the mean diameter d/4; or F_c over the weight of a bead.
+COHESIVE = ("surface_energy", "bond_number")
+FORMER = {"cohesion": "bond_number", "adhesion": "surface_energy"}
 
 
 @dataclass
@@ -24,6 +29,7 @@ class Beads:
     friction: float
     rolling_friction: float
     restitution: float
+    attraction: float = 0.0  #: F_c of two beads of the mean diameter, N
     walls: dict = field(default_factory=dict)  #: coefficient of friction on each, by its name
 
 
@@ -41,6 +47,7 @@ def read_beads(path):
     _check_names(reader, beads, line)
     values = {name: _number(reader, beads, line, name, *ends) for name, ends in NUMBERS.items()}
     values |= {name: _quantity(reader, beads, line, name, *unit) for name, unit in QUANTITIES.items()}
+    values["attraction"] = _attraction(reader, beads, line, values)
     walls, given = {}, reader.file.get("walls", {})
     if not isinstance(given, dict):
         reader.fault(0, "walls", "is of another type", allowed=f"tables [walls.{WALLS[0]}] with friction")
@@ -61,13 +68,48 @@ def read_beads(path):
 
 
 def _check_names(reader, beads, line):
-    known = [*QUANTITIES, *NUMBERS]
+    known = [*QUANTITIES, *NUMBERS, *COHESIVE]
     for name in beads:
-        if name in COHESIVE:
-            reader.fault(line, name, "beads that stick together are not computed", allowed="beads without it; of cohesive grains "
-                         "loci of a shear tester (--shear-cell)")
-        elif name not in known:
-            reader.fault(line, name, "is no key of beads", allowed=", ".join(known), near=nearest(name, known))
+        if name not in known:
+            reader.fault(line, name, "is no key of beads", allowed=", ".join(known), near=FORMER.get(name) or nearest(name, known))
+
+
+def _attraction(reader, beads, line, values):
+    """Newtons; 0 of beads that do not stick."""
+    given = [key for key in COHESIVE if key in beads]
+    if len(given) > 1:
+        reader.fault(line, given[1], f"is given besides {given[0]}", allowed="one of the two")
+    diameter, density, stiffness = (values[key] or math.nan for key in ("diameter", "density", "stiffness"))
+    newtons = {"surface_energy": 3 * math.pi / 8 * diameter, "bond_number": math.pi / 6 * density * fits.GRAVITY * diameter**3}
+    value = 0.0
+    for key in given:
+        most = fits.STICKIEST * fits.SOFT * stiffness * diameter / newtons[key]  # beyond, overlaps count under every load
+        value = (_energy if key == "surface_energy" else _bond_number)(reader, beads, line, most if most > 0 else math.inf)
+    return value * newtons[given[-1]] if given else 0.0
+
+
+def _up_to(most):
+    return f"from 0 to {most:.3g}" if most < math.inf else "from 0 on"
+
+
+def _bond_number(reader, beads, line, most):
+    allowed, before = f"a number {_up_to(most)}: the force that parts two beads over their weight", len(reader.problems)
+    value = reader.get(beads, line, "bond_number", (int, float), allowed)
+    if len(reader.problems) == before and not 0 <= value <= most:
+        reader.fault(line, "bond_number", f"{value:g} will not do", allowed=allowed)
+    return float(value)
+
+
+def _energy(reader, beads, line, most):
+    allowed, before = f'the work of adhesion of two beads, {_up_to(most)} J/m2: "0.05 J/m2"', len(reader.problems)
+    text = reader.get(beads, line, "surface_energy", str, allowed)
+    if len(reader.problems) > before:
+        return 0.0
+    [said] = ask("quantities", texts=[text])
+    if said.get("unit") == "N/m" and 0 <= said["si"] <= most:
+        return said["si"]
+    reader.fault(line, "surface_energy", said.get("why") or f'"{text}" will not do', allowed=allowed)
+    return 0.0
 
 
 def _number(reader, table, line, key, low, high):

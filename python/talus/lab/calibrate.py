@@ -10,10 +10,8 @@ from talus.ask import ask, find_project, write
 from talus.lab.bead_file import read_beads
 from talus.lab.command import DONE, arguments, run_command, say
 from talus.lab.from_beads import from_beads
-from talus.lab.material_file import WALLS, Material, quantity
+from talus.lab.material_file import COHESION_STRAIN, WALLS, Material, quantity
 from talus.trouble import InputError, problem
-
-GAMMA_C = 0.1
 
 
 def read_walls(words, problems):
@@ -77,7 +75,7 @@ def from_shear_cell(options, grain_density, diameter, problems):
     if growth.value > 0:
         material.add(f"{key}.consolidation_strength", growth.value, source, interval=(growth.low, growth.high))
     if strength.value > 0 or growth.value > 0:
-        material.add(f"{key}.cohesion_strain", GAMMA_C, "a choice: the strain of a shear tester's peak")
+        material.add(f"{key}.cohesion_strain", COHESION_STRAIN, "a choice: the strain of a shear tester's peak")
     most = max(locus["consolidation"] for locus in loci)
     material.lines += ["", "[pressure]", f'range = ["0 Pa", "{most:.6g} Pa"]', f'source = "the largest consolidation of {name}"']
     for wall, (path, data) in walls.items():

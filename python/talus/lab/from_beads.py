@@ -2,7 +2,8 @@
 """talus calibrate --grains: a material file from discrete elements of beads, periodic cells by LAMMPS (validation/bead-shear).
 
 Cells are of one size and stiffness, for hard beads know no other lengths than their diameter. Dense packings come first: their
-critical packing and friction say which states and slopes are to be computed."""
+critical packing and friction say which states and slopes are to be computed. Beads that stick have cells of their own besides; all
+else is that of the same beads without cohesion."""
 import math
 from pathlib import Path
 from typing import NamedTuple
@@ -13,13 +14,14 @@ from talus import beads as fits
 from talus.ask import ask
 from talus.lab import lammps
 from talus.lab.command import Interruption, processors, say
-from talus.lab.material_file import SHEAR_PLANE, Material
+from talus.lab.material_file import COHESION_STRAIN, SHEAR_PLANE, Material
 from talus.powder import Estimate
 from talus.trouble import RunError
 
 # Standard deviations of seeds in validation/bead-shear: of b, of the friction that a layer needs to start, of a wall's over its value.
 PEAK_SCATTER, START_SCATTER, WALL_SCATTER = 0.03, 0.03, 0.03
 MAX_INERTIAL = 0.3  # up to which the law's packing falls
+LOOSER = 0.04  # than the critical packing of beads that do not stick are cells of those that do, as they are laid
 
 
 class Plan(NamedTuple):
@@ -33,13 +35,15 @@ class Plan(NamedTuple):
     layer: dict        #: of incline.in
     layers: tuple      #: seeds
     blocks: tuple      #: seeds of layers on walls
+    bonds: tuple       #: attraction over pressure times d^2 of beads that stick, and the side of their boxes
+    bonded_side: int
 
 
 FULL = Plan((1, 2), ((0.03, 1), (0.045, 1), (0.045, 2)),
             (-0.055, -0.045, -0.035, -0.025, -0.018, -0.012, -0.008, -0.003, 0.002, 0.02), 12, 2.5,
-            {"thickness": 16, "length": 10, "width": 6, "time": 2}, (1, 2, 3), (1, 2, 3))
+            {"thickness": 16, "length": 10, "width": 6, "time": 2}, (1, 2, 3), (1, 2, 3), (0.3, 0.6, 1, 2.5, fits.STICKIEST), 10)
 QUICK = Plan((1, 2), ((0.04, 3),), (-0.05, -0.035, -0.025, -0.015, -0.008, 0.02), 10, 2.0,
-             {"thickness": 12, "length": 7, "width": 5, "time": 1}, (1, 2), (1,))
+             {"thickness": 12, "length": 7, "width": 5, "time": 1}, (1, 2), (1,), (0.3, 1, 2.5, fits.STICKIEST), 8)
 BLOCK = {"smooth": 1, "thickness": 6, "up": 0, "time": 2}
 
 
@@ -57,7 +61,7 @@ def block_settings(slow, wall):
 
 def jobs_of(plan, beads, folder):
     """The first jobs, and a function of the critical packing and friction that they have, which returns the others: (dense, states,
-    layers, blocks by the wall's name)."""
+    layers, cells of beads that stick, blocks by the wall's name)."""
     contact = {"mu": beads.friction, "rolling": beads.rolling_friction, "restitution": beads.restitution, "spread": beads.spread}
 
     def dense(packing, seed):
@@ -70,6 +74,8 @@ def jobs_of(plan, beads, folder):
                  for more in plan.states],
                 [lammps.job(folder, "incline.in", 2 * beads_of_layer * plan.layer["time"], seed=seed, **plan.layer,
                             **layer_settings(slow), **contact) for seed in plan.layers],
+                [lammps.job(folder, "cohesive.in", 1.2 * plan.bonded_side**3 / 1000, bond=bond, side=plan.bonded_side,
+                            packing=round(critical - LOOSER, 3), **contact) for bond in plan.bonds if beads.attraction],
                 {wall: [lammps.job(folder, "incline.in", 1, seed=seed, **BLOCK, **block_settings(slow, friction), **contact)
                         for seed in plan.blocks] for wall, friction in beads.walls.items()})
 
@@ -94,21 +100,22 @@ def run_all(plan, beads, folder, at_once):
 
 def run_in(plan, beads, folder, at_once):
     """What was computed: runs of dense packings, rows of (packing, state), slopes at which layers start, or the largest tried,
-    and frictions by wall."""
+    states of cohesive cells, and frictions by wall."""
     first, others = jobs_of(plan, beads, folder)
     interruption, rest = Interruption(), others(0.58, 0.4)
-    members = [job for group in (*rest[:3], *rest[3].values()) for job in group]
+    members = [job for group in (*rest[:4], *rest[4].values()) for job in group]
     say(f"{len(first) + len(members)} runs by LAMMPS in {folder}, {at_once} at a time")
     lammps.run(first, at_once, interruption, sum(one.cost for one in members))
     found = np.mean([fits.fit_dilatancy(*run) for run in dense_runs(first)], axis=0)
-    dense, states, layers, blocks = others(*found[2:])
-    lammps.run([*layers, *(job for group in blocks.values() for job in group), *dense, *states], at_once, interruption)
+    dense, states, layers, bonded, blocks = others(*found[2:])
+    lammps.run([*layers, *(job for group in blocks.values() for job in group), *dense, *states, *bonded], at_once, interruption)
     starts = [fits.angles(*tables)[-1] for tables in zip(columns_of(layers, "stop.txt"), columns_of(layers, "start.txt"))]
     starts = [job.variables["up"] if math.isnan(slope) else slope for job, slope in zip(layers, starts)]
     walls = {wall: [fits.friction_between(table, *fits.SLIDES, BLOCK["time"]) for table in columns_of(group, "stop.txt")]
              for wall, group in blocks.items()}
     rows = np.array([(job.variables["packing"], *fits.state(table)) for job, table in zip(states, columns_of(states, "shear.txt"))])
-    return dense_runs(first + dense), rows, starts, walls
+    cells = [fits.cohesive_state(table, job.variables["bond"]) for job, table in zip(bonded, columns_of(bonded, "cohesive.txt"))]
+    return dense_runs(first + dense), rows, starts, np.array(cells), walls
 
 
 def estimates_of(runs, rows, starts):
@@ -135,8 +142,34 @@ def estimates_of(runs, rows, starts):
     return found, fits.bulk_stiffness(packing, pressure)
 
 
+def add_cohesion(found, sources, cells, beads, plan):
+    """To what is found of beads that do not stick, and where it is from, a_0, kappa and the critical packing of those that do."""
+    bond, inertial, friction, packing = cells.T
+    slow, dry = found["static_friction"], found["critical_packing"].value
+    law = [found[key].value for key in ("static_friction", "dynamic_friction", "inertial_number")]
+    alpha, kappa = fits.cohesion_estimates(bond, fits.strength(inertial, friction, law), 0.5 * (slow.high - slow.low) / slow.value)
+    per_area = beads.attraction / beads.diameter**2
+    ends = (f"sheared steadily at constant pressure, their attraction {plan.bonds[0]:g} to {plan.bonds[-1]:g} times the pressure "
+            "times the diameter squared")
+    for key in sources:
+        sources[key] += "; of these beads without cohesion"
+    if alpha.value > 0:
+        found["tensile_strength"] = Estimate(*(per_area * end for end in (alpha.value, alpha.low, alpha.high)))
+        sources["tensile_strength"] = (f"{len(cells)} cells of beads that stick, {ends}: {alpha.value:.3g} ({alpha.low:.3g} to "
+                                       f"{alpha.high:.3g}) of the attraction over the diameter squared")
+    if kappa.value > 0:
+        found["consolidation_strength"], sources["consolidation_strength"] = kappa, f"{len(cells)} cells of beads that stick, {ends}"
+    nearest = np.abs(np.log(bond)).argmin()
+    found["critical_packing"] = Estimate(packing[nearest], packing.min(), packing.max())
+    found["random_loose_packing"] = packing[nearest] - MAX_INERTIAL * found["packing_slope"].value
+    sources["critical_packing"] = (f"a choice: of the cell whose attraction is {bond[nearest]:.2g} times the pressure times the diameter "
+                                   f"squared; the range is that of {len(cells)} cells; {dry:.4g} without cohesion")
+    if alpha.value > 0 or kappa.value > 0:
+        found["cohesion_strain"], sources["cohesion_strain"] = COHESION_STRAIN, "a choice: the strain of a shear tester's peak"
+
+
 def material_of(name, beads, plan, computed):
-    runs, rows, starts, walls = computed
+    runs, rows, starts, cells, walls = computed
     found, bulk = estimates_of(runs, rows, starts)
     of = (f"beads of friction {beads.friction:g}, rolling friction {beads.rolling_friction:g}, restitution {beads.restitution:g}, "
           f"diameters within {beads.spread:g} of the mean")
@@ -148,6 +181,9 @@ def material_of(name, beads, plan, computed):
                "dilatant_friction": f"peaks of {dense}",
                "ageing_strength": f"{len(starts)} layers on a slope: {', '.join(f'{slope:.3g}' for slope in starts)} degrees as they start, "
                                   "or at most; beyond the static friction"}
+    if beads.attraction:
+        add_cohesion(found, sources, cells, beads, plan)
+        of += f", attraction {beads.attraction:.4g} N"
     material = Material(f"{name}: {of}, by LAMMPS")
     material.add("grains.density", beads.density, "as given", "kg/m3")
     material.add("grains.diameter", beads.diameter, "as given", "m")
@@ -155,6 +191,7 @@ def material_of(name, beads, plan, computed):
     material.add("law.name", '"critical-state"', "Talus")
     for key, estimate in found.items():
         more = {"test": SHEAR_PLANE} if key in ("static_friction", "dynamic_friction") else {}
+        more |= {"unit": "Pa"} if key == "tensile_strength" else {}
         value, interval = estimate, None
         if isinstance(estimate, Estimate):
             value, interval = max(estimate.value, 0.0), (max(estimate.low, 0.0), max(estimate.high, 0.0))
@@ -164,8 +201,14 @@ def material_of(name, beads, plan, computed):
                  "(validation/bead-shear)")
     unit = beads.stiffness / beads.diameter
     stiff = "" if math.isnan(bulk) else f"; beads have a bulk modulus of {bulk * unit:.3g} Pa, cases that of their bed"
-    material.lines += ["", "[pressure]", f'range = ["0 Pa", "{fits.SOFT * unit:.4g} Pa"]',
-                       f'source = "{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"']
+    low, high, why = 0.0, fits.SOFT * unit, f"{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"
+    if beads.attraction:
+        low, loose = (beads.attraction / beads.diameter**2 / bond for bond in (plan.bonds[-1], plan.bonds[0]))
+        if loose < high:
+            high, why = loose, "attractions that were computed"
+        else:
+            why = f"from the largest attraction that was computed to {why}"
+    material.lines += ["", "[pressure]", f'range = ["{low:.4g} Pa", "{high:.4g} Pa"]', f'source = "{why}"']
     for wall, frictions in walls.items():
         known = [one for one in frictions if np.isfinite(one)]
         if not known:

@@ -8,6 +8,7 @@ from talus.trouble import problem
 
 #: Of glass beads: dynamic less static friction, random loose packing over the critical one.
 FASTER, LOOSE = 0.256, 0.94
+COHESION_STRAIN = 0.1  # of a shear tester's peak
 SHEAR_PLANE = "shear plane"
 WALLS = ("steel", "acrylic", "glass", "concrete")
 
