@@ -10,6 +10,7 @@ from pathlib import Path
 sys.argv.pop()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation" / "bead-shear"))
 
+import cohesion  # noqa: E402
 import edge  # noqa: E402
 import incline  # noqa: E402
 import numpy as np  # noqa: E402
@@ -138,6 +139,32 @@ class States(unittest.TestCase):
         self.assertAlmostEqual(fits[0.2][1][0], 0.55, delta=0.005)
         self.assertGreater(fits[0.2][0][0], fits[0.0][0][0] + 0.1)
         self.assertLess(fits[0.2][1][0], fits[0.0][1][0] - 0.03)
+
+
+class Cohesion(unittest.TestCase):
+    def test_cells_that_stick_have_the_law_s_line_and_predict_the_one_held_out(self):
+        table = np.genfromtxt(cohesion.CELLS, delimiter=",", names=True)
+        over = beads.strength(table["inertial_number"], table["friction"], cohesion.law())
+        self.assertAlmostEqual(over[0], 0, delta=0.05)  # without attraction: the friction of constant volume
+        used = (table["bond"] > 0) & (table["bond"] != cohesion.HELD_OUT)
+        alpha, kappa = (one.value for one in beads.cohesion_estimates(table["attraction_over_stress"][used], over[used]))
+        [row] = table[table["bond"] == cohesion.HELD_OUT]
+        predicted = beads.cohesive_friction(row["inertial_number"], kappa + alpha * row["attraction_over_stress"], cohesion.law())
+        self.assertAlmostEqual(row["friction"] / predicted, 1, delta=0.05)
+        self.assertTrue((np.diff(table["packing"]) < 0).all())
+
+    def test_layers_get_the_attraction_of_the_cells(self):
+        text = cohesion.sticky((cohesion.HERE / "incline.in").read_text(encoding="utf-8"))
+        cell = (cohesion.HERE / "cohesive.in").read_text(encoding="utf-8")
+        [style] = [line for line in cell.splitlines() if line.startswith("pair_style")]
+        self.assertEqual(text.count(style), 1)
+        self.assertEqual(text.count("granular 1 hooke"), text.count("granular 2 dmt 1 0 0.3 ${energy}"))
+        self.assertNotIn("* * hooke", text)
+
+    def test_a_slope_holds_by_friction_and_by_the_attraction_over_its_weight(self):
+        self.assertAlmostEqual(np.tan(np.radians(cohesion.slope_of(0, 0.5, 0.2, 0))), 0.5)
+        steep = np.radians(cohesion.slope_of(13.3 * np.cos(0.7), 0.5, 1, 0.1))  # C = 1 on the plane at 0.7
+        self.assertAlmostEqual(np.tan(steep) / (0.5 * (1.1 + np.cos(0.7) / np.cos(steep))), 1, delta=0.01)
 
 
 class Reversals(unittest.TestCase):

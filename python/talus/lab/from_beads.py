@@ -35,15 +35,17 @@ class Plan(NamedTuple):
     layer: dict        #: of incline.in
     layers: tuple      #: seeds
     blocks: tuple      #: seeds of layers on walls
-    bonds: tuple       #: attraction over pressure times d^2 of beads that stick, and the side of their boxes
-    bonded_side: int
+    bonds: tuple       #: attraction over pressure times d^2 of beads that stick
+    bonded: dict       #: of cohesive.in
 
 
 FULL = Plan((1, 2), ((0.03, 1), (0.045, 1), (0.045, 2)),
             (-0.055, -0.045, -0.035, -0.025, -0.018, -0.012, -0.008, -0.003, 0.002, 0.02), 12, 2.5,
-            {"thickness": 16, "length": 10, "width": 6, "time": 2}, (1, 2, 3), (1, 2, 3), (0.3, 0.6, 1, 2.5, fits.STICKIEST), 10)
+            {"thickness": 16, "length": 10, "width": 6, "time": 2}, (1, 2, 3), (1, 2, 3),
+            (0.3, 0.6, 1, 2.5, fits.STICKIEST), {"side": 10, "strain": 2.5})
 QUICK = Plan((1, 2), ((0.04, 3),), (-0.05, -0.035, -0.025, -0.015, -0.008, 0.02), 10, 2.0,
-             {"thickness": 12, "length": 7, "width": 5, "time": 1}, (1, 2), (1,), (0.3, 1, 2.5, fits.STICKIEST), 8)
+             {"thickness": 12, "length": 7, "width": 5, "time": 1}, (1, 2), (1,),
+             (0.3, 1, 2.5, fits.STICKIEST), {"side": 8, "strain": 1.5})
 BLOCK = {"smooth": 1, "thickness": 6, "up": 0, "time": 2}
 
 
@@ -74,7 +76,7 @@ def jobs_of(plan, beads, folder):
                  for more in plan.states],
                 [lammps.job(folder, "incline.in", 2 * beads_of_layer * plan.layer["time"], seed=seed, **plan.layer,
                             **layer_settings(slow), **contact) for seed in plan.layers],
-                [lammps.job(folder, "cohesive.in", 1.2 * plan.bonded_side**3 / 1000, bond=bond, side=plan.bonded_side,
+                [lammps.job(folder, "cohesive.in", plan.bonded["side"]**3 * plan.bonded["strain"] / 1200, bond=bond, **plan.bonded,
                             packing=round(critical - LOOSER, 3), **contact) for bond in plan.bonds if beads.attraction],
                 {wall: [lammps.job(folder, "incline.in", 1, seed=seed, **BLOCK, **block_settings(slow, friction), **contact)
                         for seed in plan.blocks] for wall, friction in beads.walls.items()})
