@@ -57,14 +57,13 @@ void advance_leapfrog(const Step& step) {
   step.kick();
   step.contact(0.5 * (s.last_step + step.dt), s.position);
   step.midpoint_positions();
-  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate, s.mass_ratio},
+  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.mass_ratio},
                  PairTerms::gradients);
   step.drift(s.velocity);
   step.density();
   step.stress();
   step.end();
   // While the gradients are in the order of the particles.
-  keep_deformation_rate(step.team, s, w);
   measure_shear_rate(step.team, s, w);
   step.lists();
   evaluate(step.team, step.p, s, w);
@@ -75,16 +74,14 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients(
-      {w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate, s.mass_ratio},
-      PairTerms::all);
+  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.mass_ratio},
+                 PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
   step.density();
   step.stress();
   step.contact(step.dt, w.position);
   step.end();
-  keep_deformation_rate(step.team, s, w);
   step.lists();
   evaluate(step.team, step.p, s, w);
   measure_shear_rate(step.team, s, w);

@@ -101,15 +101,14 @@ void refresh_halo(Workspace& w, const SummedColumns& c) {
   if (w.share.is_all()) return;
   std::vector<Halo::Column> columns{Halo::column(std::span(c.position)), Halo::column(std::span(c.velocity)),
                                     Halo::column(std::span(c.density)), Halo::column(std::span(c.smoothing_length))};
-  for (auto* const tensor : {&c.material.stress, &c.material.collisional, &c.deformation_rate})
+  for (auto* const tensor : {&c.material.stress, &c.material.collisional})
     for (std::vector<double>& component : *tensor)
       if (!component.empty()) columns.push_back(Halo::column(std::span(component)));
   w.share.refresh(columns);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const SummedColumns columns{s.position, s.velocity,         s.density,   w.smoothing_length,
-                              s.material, s.deformation_rate, s.mass_ratio};
+  const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.mass_ratio};
   refresh_halo(w, columns);
   // The forces at the moment of the opening are still those of the settled bed, in a resumed run too.
   const bool flows = s.gate_time >= 0 && s.time > s.gate_time;
@@ -122,12 +121,6 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
     s.strain[i] = w.material.strain(s.material, i);
   });
-}
-
-void keep_deformation_rate(ThreadTeam& team, State& s, const Workspace& w) {
-  if (s.deformation_rate[0].empty()) return;
-  for_each(team, s.position.size(),
-           [&](std::size_t i) { set_tensor(s.deformation_rate, i, symmetric_part(w.rates.velocity_gradient[i])); });
 }
 
 void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {

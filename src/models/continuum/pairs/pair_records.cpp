@@ -99,27 +99,6 @@ double quantum_for(double reach) {
   return std::exp2(std::ceil(std::log2(reach)) + 2 - 32);
 }
 
-/// d x_j - x_i of the source, as the image has it.
-Vector3 displaced(const Image& image, const Vector3& d) {
-  return image.position(d) - image.position({});
-}
-
-DampingRecord record_of(const SymmetricTensor3<>& rate, double sound_speed, double loaded) {
-  return {{rate.xx, rate.yy, rate.zz, rate.xy, rate.yz, rate.zx}, sound_speed, loaded};
-}
-
-/// The same in single precision, number by number.
-template <class Single, class Record>
-void round_to_single(ThreadTeam& team, const std::vector<Record>& records, std::vector<Single>& single) {
-  static_assert(sizeof(Record) / sizeof(double) == sizeof(Single) / sizeof(float));
-  single.resize(records.size());
-  for_each(team, records.size(), [&](std::size_t r) {
-    const double* const from = reinterpret_cast<const double*>(&records[r]);
-    float* const to = reinterpret_cast<float*>(&single[r]);
-    for (std::size_t n = 0; n < sizeof(Record) / sizeof(double); ++n) to[n] = static_cast<float>(from[n]);
-  });
-}
-
 }  // namespace
 
 /// Walls of a vessel read the records in double precision whatever that of the pairs.
@@ -263,52 +242,8 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
   single_stress_.back() = {{}, count > 0 ? single_stress_.front().half_density : 1, 0};
 }
 
-void PairRecords::pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
-                               double sound_speed, bool everywhere) {
-  const std::size_t count = particles.position.size();
-  const Neighbourhood& neighbourhood = lists.neighbourhood();
-  const auto ghosts = neighbourhood.ghosts();
-  const auto packed_ghosts = lists.packed_ghosts();
-  const bool rates = !particles.deformation_rate[0].empty();
-  damping_.resize(count + ghosts.size() + 1);
-  for_each(team, count, [&](std::size_t i) {
-    const bool loaded = trace(stress_of(particles.material, i)) > 0;
-    damping_[i] = record_of(rates ? tensor_at(particles.deformation_rate, i) : SymmetricTensor3<>{},
-                            loaded || everywhere ? sound_speed : 0, loaded ? 1.0 : 0.0);
-  });
-  for_each(team, packed_ghosts.size(), [&](std::size_t n) {
-    const std::size_t g = packed_ghosts[n];
-    const DampingRecord& source = damping_[ghosts[g].source];
-    const double* const r = source.deformation_rate;
-    damping_[count + g] = record_of(neighbourhood.image(ghosts[g]).tensor({r[0], r[1], r[2], r[3], r[4], r[5]}),
-                                    source.sound_speed, source.loaded);
-  });
-  damping_.back() = {};
-  if (options_.precision == PairPrecision::in_single) round_to_single(team, damping_, single_damping_);
-}
-
-void PairRecords::set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own) {
-  const std::size_t count = own.size();
-  const Neighbourhood& neighbourhood = lists.neighbourhood();
-  const auto ghosts = neighbourhood.ghosts();
-  diffusion_.assign(count + ghosts.size() + 1, {});
-  std::copy(own.begin(), own.end(), diffusion_.begin());
-  for_each(team, ghosts.size(), [&](std::size_t g) {
-    DiffusionRecord ghost = diffusion_[ghosts[g].source];
-    double* const slope = ghost.density_gradient;
-    const Vector3 turned = displaced(neighbourhood.image(ghosts[g]), {slope[0], slope[1], slope[2]});
-    for (int axis = 0; axis < 3; ++axis) slope[axis] = turned[axis];
-    diffusion_[count + g] = ghost;
-  });
-  if (options_.precision == PairPrecision::in_single) round_to_single(team, diffusion_, single_diffusion_);
-}
-
 Records PairRecords::view() const {
-  return {motion_.data(),
-          stress_.data(),
-          damping_.data(),
-          diffusion_.data(),
-          {single_motion_.data(), single_stress_.data(), single_damping_.data(), single_diffusion_.data(), quantum_}};
+  return {motion_.data(), stress_.data(), {single_motion_.data(), single_stress_.data(), quantum_}};
 }
 
 }  // namespace talus::continuum

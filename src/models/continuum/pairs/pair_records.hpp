@@ -44,12 +44,6 @@ class PairRecords {
 
   /// Motion of particles and images. \param stresses whether stresses, too: only forces read them
   void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
-  /// Rates of deformation, for hourglass damping, and speeds of sound, for the viscosity.
-  /// \param sound_speed m/s \param everywhere whether particles without pressure have it, too, in place of 0
-  void pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, double sound_speed,
-                    bool everywhere);
-  /// Gradients of the density, for its diffusion; those of images follow. \param own those of all particles
-  void set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own);
 
   Records view() const;
 
@@ -65,10 +59,6 @@ class PairRecords {
   std::vector<StressRecord> stress_;
   std::vector<SingleMotionRecord> single_motion_;
   std::vector<SingleStressRecord> single_stress_;
-  std::vector<DampingRecord> damping_;
-  std::vector<DiffusionRecord> diffusion_;
-  std::vector<SingleDampingRecord> single_damping_;
-  std::vector<SingleDiffusionRecord> single_diffusion_;
 };
 
 }  // namespace talus::continuum

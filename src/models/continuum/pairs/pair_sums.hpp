@@ -58,10 +58,7 @@ class PairSums {
 
  private:
   void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms);
-  void find_density_gradients(ThreadTeam& team, const ParticleView& particles);
   void make_room(PairTerms terms, std::size_t count, Rates& rates) const;
-  /// Whether stabilisers act on these sums, which then read their records, whichever of them act.
-  bool are_stabilised(PairTerms terms) const;
   SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const ParticleSums& sums) const;
 
   double mass_;  // of mass ratio 1
@@ -71,20 +68,15 @@ class PairSums {
   double grain_density_;
   double skin_;
   sph::StressForm stress_form_;
-  bool corrected_continuity_;
   bool asks_stress_around_;
   PairPrecision precision_;
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_, sum_at_vessel_;  // by PairTerms; that of particles that meet walls of the vessel
   VelocityGradients* velocity_gradients_;
-  SumNeighbours density_gradients_ = nullptr;  // null: densities do not diffuse
-  bool diffuses_, damps_, local_sound_speed_;
-  Halo* halo_ = nullptr;  // null: this process owns all particles
   PairLists lists_;
   VesselWalls vessel_;
   WallSums walls_;
   PairRecords records_;
-  std::vector<DiffusionRecord> density_gradient_;  // of the particles
 };
 
 }  // namespace talus::continuum
