@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,6 @@
 #include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/wall_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
-#include "ranks/halo.hpp"
 
 namespace talus::continuum {
 
@@ -35,11 +35,10 @@ class PairSums {
                               std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
-  /// of the skin \param mass_ratio of the particles, empty: 1 \param part, halo of the particles that other processes
-  /// own; the halo outlives the lists
+  /// of the skin \param mass_ratio of the particles, empty: 1 \param part of the particles that other processes own
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
                        std::span<const double> margin, std::span<const double> mass_ratio = {},
-                       const PartOfPoints& part = {}, Halo* halo = nullptr);
+                       const PartOfPoints& part = {});
   /// The same with half of the skin for all.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
     find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
@@ -53,11 +52,15 @@ class PairSums {
   PairSums(const PairSums&) = delete;
   PairSums& operator=(const PairSums&) = delete;
 
-  /// Packs the records, then computes the requested rates. \pre columns hold the halo's values too
-  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates);
+  /// Packs the records, and computes the requested rates. \param arrive makes columns hold the halo's values, null:
+  /// they do; before it is called, particles without copies among their neighbours are summed
+  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates,
+                  const std::function<void()>& arrive = nullptr);
 
  private:
-  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms);
+  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Held held, bool meets_walls);
+  void sum(ThreadTeam& team, const ParticleView& particles, PairTerms terms, std::span<const std::uint32_t> blocks,
+           Rates& rates) const;
   void make_room(PairTerms terms, std::size_t count, Rates& rates) const;
   SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const ParticleSums& sums) const;
 
@@ -77,6 +80,8 @@ class PairSums {
   VesselWalls vessel_;
   WallSums walls_;
   PairRecords records_;
+  /// Blocks of ParticleSums::together particles: those with no copy among their neighbours, and the others.
+  std::array<std::vector<std::uint32_t>, 2> blocks_;
 };
 
 }  // namespace talus::continuum

@@ -29,7 +29,7 @@ constexpr double default_courant(Method method) {
 }
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder, cement };
+enum class GrainMaterial { glass_beads, sand, wheat, maize, soybean, rapeseed, pharma_powder, cement };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
@@ -102,8 +102,8 @@ template <>
 inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
 
 template <>
-inline constexpr auto choices<continuum::GrainMaterial> =
-    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder", "cement"});
+inline constexpr auto choices<continuum::GrainMaterial> = std::to_array<std::string_view>(
+    {"glass-beads", "sand", "wheat", "maize", "soybean", "rapeseed", "pharma-powder", "cement"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});
