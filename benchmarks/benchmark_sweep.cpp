@@ -85,8 +85,7 @@ struct Bed {
     evaluate(PairTerms::all);
   }
   void evaluate(PairTerms terms) {
-    pairs(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
-          rates);
+    pairs(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
   }
 };
 

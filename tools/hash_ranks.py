@@ -31,11 +31,6 @@ CASES = hash_cases.SHORT | {
     "hopper, midpoint rule, strain from displacements": (
         "yuu2011-hopper-printed", {"bed.spacing": "5 mm", "run.end": "20 ms", "output.snapshots": "10 ms",
                                    "output.series": "1 ms", **SOON}),
-    "stabilisers": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "sph.density_diffusion": "0.1",
-                                              "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
-    "stabilisers, single precision": (
-        "yuu2011-hopper-vacuum-fast", {**COARSE_HOPPER, **SOON, "sph.density_diffusion": "0.1",
-                                       "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
     "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left": "periodic", "box.right": "periodic",
                                                "box.front": "periodic", "box.rear": "periodic", "run.end": "4 ms"}),
     "shared air": (

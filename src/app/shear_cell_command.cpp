@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -38,6 +39,20 @@ void print_table(std::span<const granular::ShearTest> tests) {
   }
 }
 
+/// Angles under the largest and the smallest load of each locus.
+void print_wall(std::span<const granular::ShearTest> tests, const granular::CellWall& wall) {
+  const auto degrees = [](const granular::YieldPoint& point) {
+    return std::atan(point.shear / point.normal) * 180 / std::numbers::pi;
+  };
+  print("\nOn a wall of friction {:.4g} and adhesion {:.4g} Pa\n{:>10} {:>10} {:>10} {:>10}\n", wall.coefficient,
+        wall.adhesion, "load", "wall ang.", "at", "wall ang.");
+  print("{:>10} {:>10} {:>10} {:>10}\n", "Pa", "deg", "Pa", "deg");
+  for (const granular::ShearTest& test : tests) {
+    const granular::YieldPoint &most = test.on_wall.back(), &least = test.on_wall.front();
+    print("{:10.4g} {:10.2f} {:10.4g} {:10.2f}\n", most.normal, degrees(most), least.normal, degrees(least));
+  }
+}
+
 ExitStatus run_tests(const ShearCellWords& words) {
   const LawCase parameters = read_law_case(words.case_options.read());
   std::vector<Problem> problems;
@@ -62,7 +77,9 @@ ExitStatus run_tests(const ShearCellWords& words) {
   check_output(folder, existing, "--overwrite");
 
   const granular::AnyLaw law = make_law(parameters.law, parameters.grains.density, parameters.grains.diameter);
-  const granular::ShearCellOptions options{.density = path_options(parameters, 1).density, .rate = rate[0]};
+  granular::ShearCellOptions options{.density = path_options(parameters, 1).density, .rate = rate[0]};
+  if (parameters.walls.coefficient)
+    options.wall = {.coefficient = *parameters.walls.coefficient, .adhesion = parameters.walls.adhesion};
   std::vector<granular::ShearTest> tests;
   for (const double load : loads) tests.push_back(granular::shear_test(law, load, fractions, options));
 
@@ -71,7 +88,9 @@ ExitStatus run_tests(const ShearCellWords& words) {
   claim_file(folder / "shear-cell.png");
   write_shear_figure(tests, folder / "shear-cell.png");
   print_table(tests);
-  print("{}: yield-loci.csv, flow-function.csv, triaxial.csv, shear-cell.png\n", folder.string());
+  if (options.wall) print_wall(tests, *options.wall);
+  print("{}: yield-loci.csv, {}flow-function.csv, triaxial.csv, shear-cell.png\n", folder.string(),
+        options.wall ? "wall-yield-loci.csv, " : "");
   return ExitStatus::done;
 }
 
@@ -95,7 +114,10 @@ void add_shear_cell_command(CLI::App& app, Action& action) {
       "through these points gives cohesion, angle, f_c and sigma_1 as in ASTM D6773, and ff_c = sigma_1/f_c. Plane "
       "and\n"
       "cyl. f_c: the same sample out of the cell, compressed without lateral stress, in plane strain and as a "
-      "cylinder.");
+      "cylinder.\n"
+      "With walls.coefficient, or walls.material and grains.material, also the wall yield locus: the wall's friction "
+      "and\n"
+      "walls.adhesion, or what the grains themselves bear if that is less.");
   command->callback([words, &action] { action = [words] { return run_tests(*words); }; });
 }
 

@@ -18,6 +18,7 @@
 namespace talus::app {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -89,6 +90,33 @@ TEST_F(ShearCellCommand, WritesWhatItMeasuresAndDrawsIt) {
   EXPECT_THAT(said, HasSubstr("flow-function.csv"));
   // A folder that is there is not replaced without being asked for.
   EXPECT_FALSE(problems({powder_case(), "--out", out()}).empty());
+}
+
+TEST_F(ShearCellCommand, WithAWallMeasuresItsYieldLocus) {
+  const std::string said = run({powder_case(), "--loads", "1 kPa", "--fractions", "0.2,0.5", "--set",
+                                "walls.coefficient=0.3", "--set", "walls.adhesion=40 Pa", "--out", out()});
+  const Series wall = read_series(folder_ / "out" / "wall-yield-loci.csv");
+  EXPECT_THAT(wall.column("normal_stress"), ElementsAre(200, 500, 1000));
+  EXPECT_THAT(wall.column("shear_stress"), ElementsAre(100, 190, 340));
+  EXPECT_THAT(said, HasSubstr("wall-yield-loci.csv"));
+  EXPECT_THAT(said, HasSubstr("26.57")) << "atan(100/200)";
+}
+
+TEST_F(ShearCellCommand, TakesTheWallOfAMaterial) {
+  std::ofstream(folder_ / "wheat.toml") << R"([law]
+name = "critical-state"
+[grains]
+material = "wheat"
+[walls]
+material = "steel"
+)";
+  const std::string said =
+      run({(folder_ / "wheat.toml").string(), "--loads", "1 kPa", "--fractions", "0.2,0.5", "--out", out()});
+  EXPECT_THAT(said, HasSubstr("On a wall of friction"));
+  EXPECT_FALSE(problems({(folder_ / "wheat.toml").string(), "--set", "walls.material=glass", "--out", out()}).empty())
+      << "not known of wheat";
+  EXPECT_THAT(problems({powder_case(), "--set", "walls.material=steel", "--out", out()}),
+              Contains(HasSubstr("walls.material: no friction follows from it")));
 }
 
 TEST_F(ShearCellCommand, NamesEveryProblem) {

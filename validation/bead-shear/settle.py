@@ -4,7 +4,7 @@
 
 usage: settle.py run FOLDER    three reversals and one shaken packing with LAMMPS (about ten minutes on one core), to
                                data/reversal.csv and data/agitation.csv
-       settle.py fit           the fabric of the law critical-state, with standard errors, and the table of the shaken
+       settle.py fit           a fabric tensor added to the law critical-state, with standard errors, and the table of the shaken
 """
 import numpy as np
 from shear import HERE, lammps, main, write_rows

@@ -14,17 +14,35 @@
 namespace talus::app {
 
 LawCase read_law_case(const CaseFile& file) {
-  static constexpr std::array<std::string_view, 7> concerned{
-      "law", "collisions", "path", "grains.material", "grains.density", "grains.diameter", "gravity.acceleration"};
+  static constexpr std::array<std::string_view, 10> concerned{"law",
+                                                              "collisions",
+                                                              "path",
+                                                              "grains.material",
+                                                              "grains.density",
+                                                              "grains.diameter",
+                                                              "walls.material",
+                                                              "walls.coefficient",
+                                                              "walls.adhesion",
+                                                              "gravity.acceleration"};
   const CaseFile part = without_own_material(file.contains("model") ? file.part(concerned) : file);
   LawCase parameters;
-  const FilledIn filled = fill_in_values(file, parameters);
+  fill_in_values(file, parameters);
+  continuum::Parameters whole;
+  const FilledIn filled = fill_in_material(file, whole);
+  if (filled.keys.contains("walls.coefficient")) parameters.walls.coefficient = whole.walls.coefficient;
   std::string title;
   ParameterReader reader(part, continuum::renamed_keys);
   reader(Parameter{.key = "title", .text = "one line"}, title);
   for_each_parameter(reader, parameters);
   reader.check(filled.problems);
-  reader.check(parameters, [](const LawCase& read) { return granular::check(read.law); });
+  reader.check(parameters, [](const LawCase& read) {
+    std::vector<Problem> problems = granular::check(read.law);
+    if (read.walls.material && !read.walls.coefficient)
+      problems.push_back({.key = "walls.material",
+                          .what = "no friction follows from it",
+                          .allowed = "a grains.material that knows it, or walls.coefficient"});
+    return problems;
+  });
   auto& critical = parameters.law.of<granular::CriticalState>();
   if (part.contains("law.critical-state.bulk_modulus") && !part.contains("law.critical-state.shear_modulus"))
     critical.shear_modulus = shear_over_bulk(material_of(file)) * critical.bulk_modulus;

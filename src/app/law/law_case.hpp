@@ -33,6 +33,12 @@ struct LawCase {
   struct Gravity {
     double acceleration = 9.81;
   } gravity;
+  /// That talus shear-cell tests the grains on; without a coefficient none.
+  struct Walls {
+    std::optional<continuum::WallMaterial> material;
+    std::optional<double> coefficient;
+    double adhesion = 0;
+  } walls;
   struct Path {
     std::optional<double> packing;
     double max_increment = 1e-6;
@@ -52,6 +58,13 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
   visit(Parameter{"gravity.acceleration", dimension::acceleration, above(0), "g of Eqs 13 and 14"},
         p.gravity.acceleration);
+  visit(Parameter{"walls.material", {}, {}, "what the wall of talus shear-cell is made of: its friction follows"},
+        p.walls.material);
+  visit(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
+                  "coefficient of that wall's friction; left out: by walls.material, or no wall"},
+        p.walls.coefficient);
+  visit(Parameter{"walls.adhesion", dimension::pressure, at_least(0), "shear stress that the wall bears besides"},
+        p.walls.adhesion);
   visit(Parameter{"path.packing", dimension::none, between(0.01, 0.74),
                   "packing at the start, free of stress; left out: that at which the law's grains touch"},
         p.path.packing);

@@ -50,6 +50,12 @@ void draw_loci(cairo_t* context, const Frame& frame, std::span<const granular::S
     figure::set_pen(context, colour, line);
     figure::stroke_line(context, frame.x(0), frame.y(locus.cohesion / 1e3), frame.x(end / 1e3),
                         frame.y((locus.cohesion + end * std::tan(locus.angle)) / 1e3));
+    figure::set_pen(context, colour, thin);
+    for (std::size_t k = 1; k < test.on_wall.size(); ++k) {
+      const granular::YieldPoint &from = test.on_wall[k - 1], &to = test.on_wall[k];
+      figure::stroke_line(context, frame.x(from.normal / 1e3), frame.y(from.shear / 1e3), frame.x(to.normal / 1e3),
+                          frame.y(to.shear / 1e3));
+    }
     for (const granular::YieldPoint& point : test.points) mark(context, frame, point, colour, false);
     mark(context, frame, test.pre_shear, colour, true);
   }

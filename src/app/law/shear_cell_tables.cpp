@@ -12,6 +12,14 @@ void write_shear_tables(std::span<const granular::ShearTest> tests, const std::f
                     {{"consolidation", "Pa"}, {"normal_stress", "Pa"}, {"shear_stress", "Pa"}});
   SeriesWriter triaxial(folder / "triaxial.csv",
                         {{"consolidation", "Pa"}, {"lateral_stress", "Pa"}, {"axial_stress", "Pa"}});
+  if (!tests.empty() && !tests.front().on_wall.empty()) {
+    SeriesWriter wall(folder / "wall-yield-loci.csv",
+                      {{"consolidation", "Pa"}, {"normal_stress", "Pa"}, {"shear_stress", "Pa"}});
+    for (const granular::ShearTest& test : tests)
+      for (const granular::YieldPoint& point : test.on_wall)
+        append(wall, {test.pre_shear.normal, point.normal, point.shear});
+    wall.sync();
+  }
   SeriesWriter flow(folder / "flow-function.csv", {{"consolidation", "Pa"},
                                                    {"shear_stress", "Pa"},
                                                    {"bulk_density", "kg/m3"},

@@ -63,10 +63,6 @@ LawColumns columns_of(const granular::CriticalStateParameters& p, const Material
   for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = velocity_gradient.component[c].data();
   columns.expansion = old.history[0].data(), columns.contacts = old.history[1].data();
   if (keep_history) columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
-  for (std::size_t c = 0; c < 6 && p.has_fabric(); ++c) {
-    columns.fabric[c] = old.history[2 + c].data();
-    if (keep_history) columns.next_fabric[c] = next.history[2 + c].data();
-  }
   if (p.has_cohesion()) {
     columns.strengthening = old.history.back().data();
     if (keep_history) columns.next_strengthening = next.history.back().data();

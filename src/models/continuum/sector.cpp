@@ -100,8 +100,7 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
     s.velocity[i] = image->vector(s.velocity[i]);
     if (!s.reset_position.empty()) s.reset_position[i] = image->position(s.reset_position[i]);
     material.mirror(s.material, i, *image);
-    for (auto* rate : {&s.lasting_rate, &s.deformation_rate})
-      if (!(*rate)[0].empty()) set_tensor(*rate, i, image->tensor(tensor_at(*rate, i)));
+    if (!s.lasting_rate[0].empty()) set_tensor(s.lasting_rate, i, image->tensor(tensor_at(s.lasting_rate, i)));
     s.sector_turns[i] = (s.sector_turns[i] + copies - image->turns) % copies;
   }
 }

@@ -70,7 +70,7 @@ struct State {
   /// Which of the columns below there are. From the case, not fields: without particles every column is empty.
   struct Columns {
     bool mass_ratio = false, tag = false, collisional = false, reset_position = false, sector_turns = false,
-         lasting_rate = false, deformation_rate = false;
+         lasting_rate = false;
   } has;
   double mass = 0;           ///< of a particle, where masses differ of one of bed.spacing, kg
   double merged_energy = 0;  ///< kinetic, that merging particles lost since the start, J; with levels
@@ -90,8 +90,6 @@ struct State {
   /// D', averaged over what went before (measure_shear_rate), 1/s: xx yy zz xy yz zx; empty: densities are not drawn by
   /// it.
   std::array<std::vector<double>, 6> lasting_rate;
-  /// D at the midpoint of the last step, 1/s: xx yy zz xy yz zx; empty unless what it does not explain is damped.
-  std::array<std::vector<double>, 6> deformation_rate;
 
   std::vector<Vector3> patch_impulse;  ///< received by each patch of the boundary since the start, N s
   WallLoads wall_loads;                ///< the same by field of the vessel's surface
@@ -131,9 +129,6 @@ inline constexpr std::array<const char*, 6> collisional_names = {"collisional_st
                                                                  "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr std::array<const char*, 6> lasting_names = {"lasting_rate_xx", "lasting_rate_yy", "lasting_rate_zz",
                                                              "lasting_rate_xy", "lasting_rate_yz", "lasting_rate_zx"};
-inline constexpr std::array<const char*, 6> rate_names = {"deformation_rate_xx", "deformation_rate_yy",
-                                                          "deformation_rate_zz", "deformation_rate_xy",
-                                                          "deformation_rate_yz", "deformation_rate_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline constexpr const char* fed_names[3] = {"fed_momentum_x", "fed_momentum_y", "fed_momentum_z"};
@@ -236,8 +231,6 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);
   for (std::size_t c = 0; c < 6 && s.has.lasting_rate; ++c)
     visit(FieldInfo{detail::lasting_names[c], "1/s", FieldRole::kept, false}, s.lasting_rate[c]);
-  for (std::size_t c = 0; c < 6 && s.has.deformation_rate; ++c)
-    visit(FieldInfo{detail::rate_names[c], "1/s", FieldRole::kept, false}, s.deformation_rate[c]);
   for (int axis = 0; axis < 3; ++axis) {
     visit(FieldInfo{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
     visit(FieldInfo{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);

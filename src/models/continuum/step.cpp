@@ -57,14 +57,13 @@ void advance_leapfrog(const Step& step) {
   step.kick();
   step.contact(0.5 * (s.last_step + step.dt), s.position);
   step.midpoint_positions();
-  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate, s.mass_ratio},
+  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.mass_ratio},
                  PairTerms::gradients);
   step.drift(s.velocity);
   step.density();
   step.stress();
   step.end();
   // While the gradients are in the order of the particles.
-  keep_deformation_rate(step.team, s, w);
   measure_shear_rate(step.team, s, w);
   step.lists();
   evaluate(step.team, step.p, s, w);
@@ -75,16 +74,14 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients(
-      {w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate, s.mass_ratio},
-      PairTerms::all);
+  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.mass_ratio},
+                 PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
   step.density();
   step.stress();
   step.contact(step.dt, w.position);
   step.end();
-  keep_deformation_rate(step.team, s, w);
   step.lists();
   evaluate(step.team, step.p, s, w);
   measure_shear_rate(step.team, s, w);
@@ -168,10 +165,11 @@ void Step::half() const {
 void Step::gradients(const SummedColumns& columns, PairTerms terms) const {
   // What else gradients alone read is as the forces met it.
   if (terms == PairTerms::gradients)
-    w.share.refresh(std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
+    w.share.begin_refresh(
+        std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
   else
-    refresh_halo(w, columns);
-  w.pairs(team, columns.view(), terms, w.rates);
+    begin_refresh(w, columns);
+  w.pairs(team, columns.view(), terms, w.rates, [&] { w.share.end_refresh(); });
 }
 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.

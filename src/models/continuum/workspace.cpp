@@ -69,8 +69,7 @@ void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w,
     w.share.distribute(s, w.boundary.domain(), carried);
     fit(p, s, w);
   }
-  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, s.mass_ratio, w.share.part(),
-                          w.share.is_all() ? nullptr : &w.share.halo_messages());
+  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, s.mass_ratio, w.share.part());
   w.share.weigh(w.pairs.neighbourhood().pairs());
 }
 
@@ -97,37 +96,30 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   build_lists(team, p, s, w);
 }
 
-void refresh_halo(Workspace& w, const SummedColumns& c) {
+void begin_refresh(Workspace& w, const SummedColumns& c) {
   if (w.share.is_all()) return;
   std::vector<Halo::Column> columns{Halo::column(std::span(c.position)), Halo::column(std::span(c.velocity)),
                                     Halo::column(std::span(c.density)), Halo::column(std::span(c.smoothing_length))};
-  for (auto* const tensor : {&c.material.stress, &c.material.collisional, &c.deformation_rate})
+  for (auto* const tensor : {&c.material.stress, &c.material.collisional})
     for (std::vector<double>& component : *tensor)
       if (!component.empty()) columns.push_back(Halo::column(std::span(component)));
-  w.share.refresh(columns);
+  w.share.begin_refresh(columns);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const SummedColumns columns{s.position, s.velocity,         s.density,   w.smoothing_length,
-                              s.material, s.deformation_rate, s.mass_ratio};
-  refresh_halo(w, columns);
+  const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.mass_ratio};
+  begin_refresh(w, columns);
   // The forces at the moment of the opening are still those of the settled bed, in a resumed run too.
   const bool flows = s.gate_time >= 0 && s.time > s.gate_time;
   w.pairs.set_viscosity(flows ? p.sph.viscosity_alpha : p.settle.viscosity_alpha.value_or(p.sph.viscosity_alpha));
   w.pairs(team, columns.view(), p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces,
-          w.rates);
+          w.rates, [&] { w.share.end_refresh(); });
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
     s.strain[i] = w.material.strain(s.material, i);
   });
-}
-
-void keep_deformation_rate(ThreadTeam& team, State& s, const Workspace& w) {
-  if (s.deformation_rate[0].empty()) return;
-  for_each(team, s.position.size(),
-           [&](std::size_t i) { set_tensor(s.deformation_rate, i, symmetric_part(w.rates.velocity_gradient[i])); });
 }
 
 void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {

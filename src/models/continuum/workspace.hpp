@@ -83,16 +83,13 @@ struct SummedColumns {
   std::vector<Vector3>&position, &velocity;
   std::vector<double>&density, &smoothing_length;
   MaterialColumns& material;
-  std::array<std::vector<double>, 6>& deformation_rate;
   std::vector<double>& mass_ratio;
 
-  ParticleView view() const {
-    return {position, velocity, density, smoothing_length, material, deformation_rate, {mass_ratio}};
-  }
+  ParticleView view() const { return {position, velocity, density, smoothing_length, material, {mass_ratio}}; }
 };
 
-/// Gives these columns the halo's values, in one message.
-void refresh_halo(Workspace& workspace, const SummedColumns& columns);
+/// Gives these columns the halo's values, in one message, until Share::end_refresh.
+void begin_refresh(Workspace& workspace, const SummedColumns& columns);
 
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
@@ -101,10 +98,6 @@ void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Work
 inline double shear_of(const SymmetricTensor3<>& rate) {
   return std::sqrt(2 * double_dot(rate, rate));
 }
-
-/// Keeps the rate of deformation at the midpoint of the step: with it are damped the forces at the end of the step and,
-/// by the midpoint rule, within the next. A resumed run reads it from its checkpoint.
-void keep_deformation_rate(ThreadTeam& team, State& state, const Workspace& workspace);
 
 /// From the last velocity gradients: with the leapfrog those at the midpoint of the step, which cannot be recomputed
 /// from the state at its end. A resumed run reads it from its checkpoint. The rate that lasts is its mean over what

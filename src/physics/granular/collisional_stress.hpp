@@ -31,7 +31,6 @@ struct CollisionParameters {
   Collisions form = Collisions::none;
   double normal = 1.67;   ///< B1
   double shear = 0.0175;  ///< B2
-  double diagonal = 1;    ///< gamma_ii over du_i/dx_i: 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant for i = j too
   CollisionRange range = CollisionRange::unlimited;
 };
 
@@ -46,10 +45,6 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
   auto colliding = only_if(unless("collisions.form", p.form, Collisions::none), visit);
   colliding(Parameter{"collisions.normal", dimension::none, at_least(0), "B1 of Eq. 13"}, p.normal);
   colliding(Parameter{"collisions.shear", dimension::none, at_least(0), "B2 of Eq. 14"}, p.shear);
-  auto printed = only_if(where("collisions.form", p.form, Collisions::printed), visit);
-  printed(Parameter{"collisions.diagonal", dimension::none, above(0),
-                    "gamma_ii over du_i/dx_i in Eq. 13: 1, or 2 as for i != j"},
-          p.diagonal);
   colliding(Parameter{"collisions.range",
                       {},
                       {},
@@ -87,7 +82,7 @@ SymmetricTensor3<Number> collisional_stress(const CollisionParameters& p, double
     }
     return scale * (isotropic<Number>((p.normal / 3.0) * expansion) + (2.0 * p.shear) * sheared);
   }
-  const Number normal = (p.normal * p.diagonal) * scale;
+  const Number normal = p.normal * scale;
   const Number shear = (2.0 * p.shear) * scale;
   const auto along = [&](const Number& x) { return normal * within(x, max_normal_rate); };
   const auto across = [&](const Number& x) { return shear * within(x, 0.5 * max_shear_rate); };

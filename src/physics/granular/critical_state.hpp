@@ -10,24 +10,18 @@
 ///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
-///     fabric      dF/dgamma = (N - F)/gamma_F,  turned with the spin;  beta less chi (1 - N:F)/2;
-///                 yield |s - 2^(1/2) mu_F p F| <= 2^(1/2) (M - mu_F) p
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
 ///     cohesion    p + a in place of p in yield and I;  a >= a_0 + kappa p where p > 0;
 ///                 da/dgamma = (a_0 + kappa p - a)/gamma_c,  -a/gamma_c where p <= 0;  apart where p < -a:  a = 0
 ///
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
-/// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
-/// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker
-/// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
 /// Cohesion moves the cone's apex to -a: cohesion M a in simple shear. A load strengthens; shear breaks bonds, which
 /// form again under the load that there is, and under tension not at all; a crack takes all. Off unless a_0 or kappa is
 /// given: to the bit. Grains that are pulled at do not compact by shear, which would be work for nothing.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + r) p dgamma/dt with b = 1.
-/// With fabric M is M - mu_F (1 - N:F) there, and at least beta again.
 /// Ageing and coming apart change no stored energy.
 ///
 /// Limits: at fixed I and p, 1/phi_s relaxes exponentially with gamma, that is, phi_s is logistic, at the rate k phi_c;
@@ -42,10 +36,7 @@
 /// (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of ageing of Dieterich and Ruina (Ruina, J.
 /// Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes of glass beads start some 2 to 5 degrees
 /// above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1, 2008). Range: dry beads, I up to 0.3.
-/// Fabric: loss of volume after a reversal, Toiya, Stambaugh & Losert, Phys. Rev. Lett. 93, 088001 (2004); contacts
-/// that form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid
-/// Mech. 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T,
-/// gamma_0 and phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
+/// completed: Delta_mu, T, gamma_0 and phi_min are choices.
 /// Cohesion: strength in proportion to consolidation, Jenike, Storage and Flow of Solids, Bulletin 123 (Utah, 1964);
 /// p + a in I, Berger, Azema, Douce & Radjai, EPL 112, 64004 (2015). completed: how shear and cracks take it away.
 #pragma once
@@ -124,18 +115,6 @@ class CriticalState {
            p.ageing_time);
     ageing(Parameter{"ageing_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
            p.ageing_strain);
-    visit(
-        Parameter{"fabric_friction", dimension::none, at_least(0),
-                  "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "
-                  "it turns back; 0: none"},
-        p.fabric_friction);
-    visit(Parameter{"fabric_contraction", dimension::none, at_least(0),
-                    "chi, loss of volume per shear strain when the shear turns back; 0: none"},
-          p.fabric_contraction);
-    auto fabric = only_if({"fabric_friction", "and fabric_contraction are 0", "one above 0", p.has_fabric()}, visit);
-    fabric(Parameter{"fabric_strain", dimension::none, above(0),
-                     "gamma_F, shear strain in which these contacts form again"},
-           p.fabric_strain);
     visit(Parameter{"tensile_strength", dimension::pressure, at_least(0),
                     "a_0, mean tension that grains bear which touch, whatever load they have borne; their cohesion in "
                     "simple shear is static_friction times it; 0: none"},
@@ -162,17 +141,14 @@ class CriticalState {
 
   template <class Number>
   struct History {
-    Number expansion = 0.0;           ///< reference packing over phi_s, less 1
-    Number contacts = 0.0;            ///< c
-    SymmetricTensor3<Number> fabric;  ///< F
-    Number strengthening = 0.0;       ///< a less that at the start, Pa
+    Number expansion = 0.0;      ///< reference packing over phi_s, less 1
+    Number contacts = 0.0;       ///< c
+    Number strengthening = 0.0;  ///< a less that at the start, Pa
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
     visit(HistorySlot{"expansion", "1"}, history.expansion);
     visit(HistorySlot{"contacts", "1"}, history.contacts);
-    for_each_tensor_slot(visit, {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy", "fabric_yz", "fabric_zx"}, "1",
-                         history.fabric);
     visit(HistorySlot{"strengthening", "Pa", 0, 0, true}, history.strengthening);
   }
 
@@ -180,17 +156,14 @@ class CriticalState {
   MaterialPoint<CriticalState, Number> update(const MaterialPoint<CriticalState, Number>& old,
                                               const Tensor3<Number>& velocity_gradient, const Number& density,
                                               double time_step) const {
-    const CriticalStatePoint<Number> point = updated(
-        coefficients_,
-        {old.stress, old.history.expansion, old.history.contacts, old.history.fabric, old.history.strengthening},
-        velocity_gradient, density, time_step);
-    return {point.stress, {point.expansion, point.contacts, point.fabric, point.strengthening}};
+    const CriticalStatePoint<Number> point =
+        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts, old.history.strengthening},
+                velocity_gradient, density, time_step);
+    return {point.stress, {point.expansion, point.contacts, point.strengthening}};
   }
   const CriticalStateCoefficients& coefficients() const { return coefficients_; }
   /// Whether the law with these parameters reads and writes a slot of the history.
-  bool uses_slot(std::size_t slot) const {
-    return slot < 2 || (slot < 8 ? parameters_.has_fabric() : parameters_.has_cohesion());
-  }
+  bool uses_slot(std::size_t slot) const { return slot < 2 || parameters_.has_cohesion(); }
 
   /// c = ((K + 4G/3)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;

@@ -27,15 +27,11 @@ struct CriticalStateParameters {
   bool ageing_adds = true;             ///< to b beta, or counts where it is more
   double ageing_time = 10e-3;          ///< T, s
   double ageing_strain = 0.05;         ///< gamma_0
-  double fabric_friction = 0;          ///< mu_F
-  double fabric_contraction = 0;       ///< chi
-  double fabric_strain = 0.3;          ///< gamma_F
   double tensile_strength = 0;         ///< a_0, Pa
   double consolidation_strength = 0;   ///< kappa
   double consolidation = 0;            ///< p_c of a new point, Pa
   double cohesion_strain = 0.1;        ///< gamma_c
 
-  constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
   constexpr bool has_cohesion() const { return tensile_strength > 0 || consolidation_strength > 0; }
   /// a_0 + kappa p_c, the tensile strength of grains that a pressure has consolidated, both Pa.
   template <class Number>
@@ -63,7 +59,6 @@ template <class Number>
 struct CriticalStatePoint {
   SymmetricTensor3<Number> stress;  ///< Pa
   Number expansion, contacts;       ///< CriticalState::History
-  SymmetricTensor3<Number> fabric;  ///< the same; zero and left so without fabric
   Number strengthening;             ///< the same; zero and left so without cohesion
 };
 
@@ -111,42 +106,18 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const Tensor3<Number> turn = rotation_of_step(velocity_gradient, time_step);
   const SymmetricTensor3<Number> trial =
       transformed(deviator(old.stress), turn) - (2 * p.shear_modulus * time_step) * rate;
-  const bool has_fabric = p.has_fabric();
-  SymmetricTensor3<Number> fabric, centre, from_centre = trial;
-  if (has_fabric) {
-    fabric = transformed(old.fabric, turn);
-    centre = ((c.sqrt2 * p.fabric_friction) * bearing) * fabric;
-    from_centre = trial - centre;
-  }
-  const Number size = norm(from_centre);
+  const Number size = norm(trial);
   // At least beta, which the pressure takes back: no heat is drawn from grains far denser than the critical packing.
-  Number least = dilatancy, radius = friction, contraction = 0.0;
-  if (has_fabric) {
-    const Number turned = 1.0 - double_dot(from_centre, fabric) / maximum(size, Number(c.tiny));
-    contraction = (0.5 * p.fabric_contraction) * turned;
-    if (has_cohesion) contraction = select(pressure < Number(0.0), Number(0.0), contraction);
-    least = dilatancy - contraction - p.fabric_friction * (1.0 - turned);
-    radius = friction - p.fabric_friction;
-  }
-  const Number most = (c.sqrt2 * maximum(maximum(radius, least), Number(0.0))) * bearing;
+  const Number most = (c.sqrt2 * maximum(maximum(friction, dilatancy), Number(0.0))) * bearing;
   const Number slip = (1 / (c.sqrt2 * p.shear_modulus)) * maximum(size - most, Number(0.0));
 
   CriticalStatePoint<Number> point;
-  const SymmetricTensor3<Number> kept = (minimum(size, most) / maximum(size, Number(c.tiny))) * from_centre;
-  point.stress = isotropic(pressure) + (has_fabric ? centre + kept : kept);
+  point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(c.tiny))) * trial;
   // d(1/phi_s)/dgamma = k (1 - phi_c/phi_s), implicit: it cannot pass the critical packing.
   Number dilation = (p.dilatancy * p.reference_packing) * slip;
   // Grains that are pulled at do not compact: the tension would do work.
   if (has_cohesion) dilation = select(pressure < Number(0.0) && touching > critical_volume, Number(0.0), dilation);
-  Number dilated = (touching + dilation) / (1.0 + dilation / critical_volume);
-  if (has_fabric) {
-    dilated = dilated / (1.0 + contraction * slip);
-    // dF/dgamma = (N - F)/gamma_F, implicit: |F| cannot pass 1. Apart, all shear takes it away: grains that part for a
-    // moment find each other as they were, those that fall far do not.
-    const Number share = (1 / p.fabric_strain) * select(touch, slip, (c.sqrt2 * time_step) * norm(rate));
-    const Number drawn = select(touch, share / maximum(size, Number(c.tiny)), Number(0.0));
-    point.fabric = (1.0 / (1.0 + share)) * (fabric + drawn * from_centre);
-  }
+  const Number dilated = (touching + dilation) / (1.0 + dilation / critical_volume);
   point.expansion = select(touch, dilated, touching) - 1.0;
   const double ageing = time_step / p.ageing_time;
   point.strengthening = 0.0;

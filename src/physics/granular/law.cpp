@@ -44,10 +44,6 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
     problems.push_back({.key = "dynamic_friction",
                         .what = "fast flow would have less friction than slow flow, and would run away",
                         .allowed = "at least static_friction"});
-  if (p.fabric_friction > p.static_friction)
-    problems.push_back({.key = "fabric_friction",
-                        .what = "grains whose shear turns back would push on by themselves",
-                        .allowed = "at most static_friction"});
   for (const auto& [key, packing] :
        {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
     if (packing < p.random_loose_packing)

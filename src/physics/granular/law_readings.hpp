@@ -36,10 +36,6 @@ enum class PrintedUnloading { none, all };
 /// sets X_i := x_i).
 enum class Reset { never, deviator, strain };
 
-/// The strain whose fall is an unloading process. The paper: "normal strain component in the main direction that is
-/// vertical".
-enum class MainStrain { x, y, z, volume };
-
 /// How shear strains enter the normal stresses of Eqs 1-3.
 enum class ShearSum {
   absolute,   ///< |e_xy| + |e_xz|: keeps the mirror symmetry
@@ -50,17 +46,16 @@ enum class ShearSum {
 struct UnloadingRule {
   double unloading_stiffness = 1.5;  ///< k_u
   Reset reset = Reset::never;
-  MainStrain main_strain = MainStrain::z;
-  double smoothing_time = 2e-4;  ///< s, over which the rate of the main strain is averaged
+  double smoothing_time = 2e-4;  ///< s, over which the rate of the vertical strain is averaged
 };
 
 template <class Visit, class R>
-void for_each_main_strain_parameter(Visit&& visit, R& rule) {
-  visit(Parameter{"main_strain", {}, {}, "the strain whose decrease is an unloading process; volume: tr(e)/3"},
-        rule.main_strain);
-  visit(Parameter{"smoothing_time", dimension::time, at_least(0),
-                  "time over which the rate of the main strain is averaged before its sign is evaluated"},
-        rule.smoothing_time);
+void for_each_smoothing_parameter(Visit&& visit, R& rule) {
+  visit(
+      Parameter{"smoothing_time", dimension::time, at_least(0),
+                "time over which the rate of the vertical strain, whose decrease is an unloading process, is averaged "
+                "before its sign is evaluated"},
+      rule.smoothing_time);
 }
 
 /// That a volumetric strain which is to be forgotten is one.
@@ -71,22 +66,13 @@ inline std::vector<Problem> check_reset(Reset reset, Volume volume) {
            .allowed = "\"never\" or \"deviator\", or volume = \"strain\""}};
 }
 
-/// The component of a strain, a rate of strain or a stress along the main direction; a third of the trace for the
-/// volume.
-template <class Number>
-Number main_strain(MainStrain main, const SymmetricTensor3<Number>& strain) {
-  return main == MainStrain::x   ? strain.xx
-         : main == MainStrain::y ? strain.yy
-         : main == MainStrain::z ? strain.zz
-                                 : (1.0 / 3.0) * trace(strain);
-}
-
-/// The rate of the main strain, averaged over the past: r' = (-D_main - r)/T, implicit in time.
+/// The rate of the vertical strain, whose fall is an unloading process, averaged over the past: r' = (-D_zz - r)/T,
+/// implicit in time. The paper: "normal strain component in the main direction that is vertical".
 /// \param old_rate 1/s; \param smoothing_time T, s, >= 0
 template <class Number>
-Number smoothed_main_rate(const Number& old_rate, MainStrain main, const Tensor3<Number>& velocity_gradient,
-                          double time_step, double smoothing_time) {
-  const Number rate = -1.0 * main_strain(main, symmetric_part(velocity_gradient));
+Number smoothed_main_rate(const Number& old_rate, const Tensor3<Number>& velocity_gradient, double time_step,
+                          double smoothing_time) {
+  const Number rate = -1.0 * velocity_gradient.zz;
   return old_rate + (time_step / (time_step + smoothing_time)) * (rate - old_rate);
 }
 
@@ -104,8 +90,6 @@ template <>
 inline constexpr auto choices<granular::PrintedUnloading> = std::to_array<std::string_view>({"none", "all"});
 template <>
 inline constexpr auto choices<granular::Reset> = std::to_array<std::string_view>({"never", "deviator", "strain"});
-template <>
-inline constexpr auto choices<granular::MainStrain> = std::to_array<std::string_view>({"x", "y", "z", "volume"});
 template <>
 inline constexpr auto choices<granular::ShearSum> = std::to_array<std::string_view>({"absolute", "signed"});
 }  // namespace talus

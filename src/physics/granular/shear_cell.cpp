@@ -106,6 +106,12 @@ ShearTest shear_test(const AnyLaw& law, double load, std::span<const double> fra
     test.triaxial.push_back({fraction * load, cylinder.compress(options.failure_strain, false)});
   }
   test.locus = evaluated(test.pre_shear, test.points);
+  if (options.wall) {
+    test.on_wall = test.points;
+    test.on_wall.push_back(test.pre_shear);
+    for (YieldPoint& point : test.on_wall)
+      point.shear = std::min(point.shear, options.wall->coefficient * point.normal + options.wall->adhesion);
+  }
   for (const bool in_plane_strain : {true, false}) {
     Sample unconfined = sample;
     unconfined.release(0);

@@ -12,6 +12,8 @@
 /// whose centre lies at
 ///     m = [A - (A^2 sin^2(phi) - tau_pre^2 cos^2(phi))^(1/2)]/cos^2(phi) - c/tan(phi),  A = sigma_pre + c/tan(phi).
 /// The line from the origin that touches that circle has the effective angle; ff_c = sigma_1/f_c.
+/// On a wall: the same sample on a coupon of the wall in place of the lower plate slides where its shear stress reaches
+/// mu_w sigma + adhesion, the wall yield locus; on a rougher wall it fails itself.
 /// Uniaxial and triaxial tests: compressed along z under a constant lateral stress. Oedometer: loaded along z, its
 /// sides held. Sources: Jenike, Storage and Flow of Solids, Bulletin 123 (Utah, 1964); Schulze, Powders and Bulk Solids
 /// (Springer, 2008), ch. 3; ASTM D6773-16. deviates: the trade takes the shear plane of the tester for a plane of
@@ -19,12 +21,18 @@
 /// strain, so that f_c by the line is less than f_c of a compressed sample; both are given.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "physics/granular/material_path.hpp"
 
 namespace talus::granular {
+
+/// A wall that grains slide along: its friction coefficient, and the shear stress that it bears besides, Pa.
+struct CellWall {
+  double coefficient = 0, adhesion = 0;
+};
 
 /// How the tests are run.
 struct ShearCellOptions {
@@ -33,6 +41,7 @@ struct ShearCellOptions {
   double max_increment = 1e-4;  ///< of the strain within a step
   double steady_strain = 4;     ///< shear strain of pre-shear
   double failure_strain = 0.1;  ///< shear or axial strain within which a sample fails
+  std::optional<CellWall> wall = {};
 };
 
 /// A point of a yield locus, Pa.
@@ -61,8 +70,9 @@ struct Compression {
 /// All that is measured after pre-shear under one load.
 struct ShearTest {
   YieldPoint pre_shear = {};
-  double density = 0;                   ///< kg/m^3, in pre-shear
-  std::vector<YieldPoint> points = {};  ///< one for each fraction of the load
+  double density = 0;                    ///< kg/m^3, in pre-shear
+  std::vector<YieldPoint> points = {};   ///< one for each fraction of the load
+  std::vector<YieldPoint> on_wall = {};  ///< the same on the wall, and one under the whole load; empty without a wall
   YieldLocus locus = {};
   double strength_in_plane_strain = 0;     ///< f_c of a compressed sample that cannot widen along y, Pa
   double strength_of_cylinder = 0;         ///< f_c of one that widens along x and y, Pa

@@ -81,7 +81,7 @@ class YuuUmekageIsotropic {
     falling(Parameter{"unloading_stiffness", dimension::none, at_least(1), "k_u, over the initial stiffness"},
             p.rule.unloading_stiffness);
     auto resetting = only_if(unless("reset", p.rule.reset, Reset::never), visit);
-    for_each_main_strain_parameter(resetting, p.rule);
+    for_each_smoothing_parameter(resetting, p.rule);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
@@ -124,8 +124,8 @@ class YuuUmekageIsotropic {
         parameters_.contact.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : packed + point.history.dilation);
     SymmetricTensor3<Number> sheared = deviator(strain);
     if (parameters_.rule.reset != Reset::never) {
-      point.history.main_rate = smoothed_main_rate(old.history.main_rate, parameters_.rule.main_strain,
-                                                   velocity_gradient, time_step, parameters_.rule.smoothing_time);
+      point.history.main_rate =
+          smoothed_main_rate(old.history.main_rate, velocity_gradient, time_step, parameters_.rule.smoothing_time);
       const SymmetricTensor3<Number> only_turned =
           transformed(deviator(old.history.strain), rotation_of_step(velocity_gradient, time_step));
       sheared = select_tensor(point.history.main_rate < Number(0.0), only_turned, sheared);

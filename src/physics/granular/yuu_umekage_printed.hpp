@@ -76,7 +76,7 @@ class YuuUmekagePrinted {
             {},
             "what is reset at the end of an unloading process: nothing, the deviator of the strain, or all the strain"},
         p.rule.reset);
-    for_each_main_strain_parameter(falling, p.rule);
+    for_each_smoothing_parameter(falling, p.rule);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
@@ -132,17 +132,14 @@ class YuuUmekagePrinted {
     point.history.resets = old.history.resets;
     if (parameters_.unloading == PrintedUnloading::none) return point;
 
-    point.history.main_rate = smoothed_main_rate(old.history.main_rate, parameters_.rule.main_strain, velocity_gradient,
-                                                 time_step, parameters_.rule.smoothing_time);
+    point.history.main_rate =
+        smoothed_main_rate(old.history.main_rate, velocity_gradient, time_step, parameters_.rule.smoothing_time);
     const auto was_unloading = old.history.unloading > Number(0.5);
-    const Number yield_strain =
-        select(was_unloading, old.history.yield_strain, main_strain(parameters_.rule.main_strain, old.history.strain));
-    const auto unloading = (was_unloading || point.history.main_rate < Number(0.0)) &&
-                           main_strain(parameters_.rule.main_strain, strain) < yield_strain;
+    const Number yield_strain = select(was_unloading, old.history.yield_strain, old.history.strain.zz);
+    const auto unloading = (was_unloading || point.history.main_rate < Number(0.0)) && strain.zz < yield_strain;
     point.stress = select_tensor(unloading, line_stress(old, strain, point.stress, scale), point.stress);
 
-    const auto ended = unloading && minimum(trace(point.stress),
-                                            main_strain(parameters_.rule.main_strain, point.stress)) < Number(tiny);
+    const auto ended = unloading && minimum(trace(point.stress), point.stress.zz) < Number(tiny);
     point.stress = select_tensor(ended, SymmetricTensor3<Number>{}, point.stress);
     point.history.unloading = select(unloading, Number(1.0), Number(0.0));
     if (parameters_.rule.reset != Reset::never) {

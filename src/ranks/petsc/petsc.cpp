@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -48,16 +49,23 @@ class StarForest final : public Plan {
  public:
   StarForest(PetscSF forest, std::size_t sent, std::size_t received) : Plan(sent, received), forest_(forest) {}
   ~StarForest() override { PetscSFDestroy(&forest_); }
-  using Plan::exchange;
-  void exchange(const void* items, std::size_t words, void* received) override {
+  void begin(const void* items, std::size_t words, void* received) override {
     if (words == 0) return;
-    const Item item(words);
-    check(PetscSFBcastBegin(forest_, item.type(), items, received, MPI_REPLACE), "send");
-    check(PetscSFBcastEnd(forest_, item.type(), items, received, MPI_REPLACE), "receive");
+    item_.emplace(words);
+    items_ = items, received_ = received;
+    check(PetscSFBcastBegin(forest_, item_->type(), items, received, MPI_REPLACE), "send");
+  }
+  void end() override {
+    if (!item_) return;
+    check(PetscSFBcastEnd(forest_, item_->type(), items_, received_, MPI_REPLACE), "receive");
+    item_.reset();
   }
 
  private:
   PetscSF forest_;
+  std::optional<Item> item_;  // on its way
+  const void* items_ = nullptr;
+  void* received_ = nullptr;
 };
 
 /// Who sends how many items to this process, and where they begin among those that it sends.

@@ -64,17 +64,10 @@ struct Evaluation {
     for (std::size_t i = 0; i < state.density.size(); ++i)
       h.push_back(pairs.smoothing_length(state.density[i], state.ratios()[i]));
     pairs.find_neighbours(team, state.position, h);
-    if (!state.deformation_rate[0].empty()) {
-      sum(h, PairTerms::gradients);
-      for (std::size_t i = 0; i < h.size(); ++i)
-        set_tensor(state.deformation_rate, i, symmetric_part(rates.velocity_gradient[i]));
-    }
     sum(h, terms);
   }
   void sum(const std::vector<double>& h, PairTerms terms) {
-    pairs(team,
-          {state.position, state.velocity, state.density, h, state.material, state.deformation_rate, state.ratios()},
-          terms, rates);
+    pairs(team, {state.position, state.velocity, state.density, h, state.material, state.ratios()}, terms, rates);
   }
 
   /// Summed over the particles: of all forces, of the walls' alone, and of the sizes of all.

@@ -19,11 +19,11 @@ struct Points {
   GradientColumns gradient;
   std::vector<double> density;
 
-  explicit Points(bool with_fabric, bool sticky) {
+  explicit Points(bool sticky) {
     Random random(11);
     for (auto* columns : {&old.stress, &old.collisional})
       for (auto& column : *columns) column.resize(count);
-    old.history.assign(9, std::vector<double>(count));
+    old.history.assign(3, std::vector<double>(count));
     gradient.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const double pressure = random.uniform(sticky ? -500 : 0, 2000);
@@ -32,16 +32,15 @@ struct Points {
       density.push_back(2500 * random.uniform(0.5, 0.65));
       old.history[0][i] = random.uniform(-0.05, 0.05);
       old.history[1][i] = random.uniform(0, 1);
-      for (std::size_t c = 0; c < 6; ++c) old.history[2 + c][i] = with_fabric ? random.uniform(-0.5, 0.5) : 0;
-      old.history[8][i] = sticky ? random.uniform(-200e3, 100e3) : 0;
+      old.history[2][i] = sticky ? random.uniform(-200e3, 100e3) : 0;
     }
   }
 };
 
 /// Both ways in which the strength at rest counts.
-granular::CriticalState::Parameters grains(bool with_fabric, bool sticky) {
+granular::CriticalState::Parameters grains(bool ageing_adds, bool sticky) {
   granular::CriticalState::Parameters p;
-  if (with_fabric) p.ageing_adds = false, p.fabric_friction = 0.25, p.fabric_contraction = 0.5;
+  p.ageing_adds = ageing_adds;
   if (sticky) p.tensile_strength = 100e3, p.consolidation_strength = 0.2, p.consolidation = 500e3;
   return p;
 }
@@ -58,12 +57,12 @@ MaterialColumns in_use(const MaterialColumns& all, const granular::CriticalState
 }
 
 TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
-  for (const auto& [with_fabric, sticky] : kinds) {
+  for (const auto& [ageing_adds, sticky] : kinds) {
     Parameters p;
-    p.law = grains(with_fabric, sticky);
+    p.law = grains(ageing_adds, sticky);
     p.collisions.form = granular::Collisions::none;
-    const Points points(with_fabric, sticky);
-    const granular::CriticalState law(grains(with_fabric, sticky), p.grains.density, p.grains.diameter);
+    const Points points(sticky);
+    const granular::CriticalState law(grains(ageing_adds, sticky), p.grains.density, p.grains.diameter);
     const MaterialColumns used = in_use(points.old, law);
     MaterialColumns next = used;
     ThreadTeam team(2);
@@ -71,16 +70,11 @@ TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
     std::size_t loose = 0, tension = 0;
     for (std::size_t i = 0; i < Points::count; ++i) {
       const auto h = [&](std::size_t k) { return points.old.history[k][i]; };
-      const granular::MaterialPoint<granular::CriticalState> old{
-          tensor_at(points.old.stress, i), {h(0), h(1), {h(2), h(3), h(4), h(5), h(6), h(7)}, h(8)}};
+      const granular::MaterialPoint<granular::CriticalState> old{tensor_at(points.old.stress, i), {h(0), h(1), h(2)}};
       const auto expected = law.update(old, points.gradient[i], points.density[i], 1e-5);
       EXPECT_EQ(tensor_at(next.stress, i), expected.stress);
       EXPECT_EQ(next.history[0][i], expected.history.expansion);
       EXPECT_EQ(next.history[1][i], expected.history.contacts);
-      if (with_fabric) {
-        const auto f = [&](std::size_t k) { return next.history[2 + k][i]; };
-        EXPECT_EQ((SymmetricTensor3<>{f(0), f(1), f(2), f(3), f(4), f(5)}), expected.history.fabric);
-      }
       if (sticky) {
         EXPECT_EQ(next.history.back()[i], expected.history.strengthening);
       }
@@ -94,9 +88,9 @@ TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
 }
 
 TEST(Material, EveryInstructionSetHasTheSameBits) {
-  for (const auto& [with_fabric, sticky] : kinds) {
-    const Points points(with_fabric, sticky);
-    const granular::CriticalState law(grains(with_fabric, sticky), 2500, 200e-6);
+  for (const auto& [ageing_adds, sticky] : kinds) {
+    const Points points(sticky);
+    const granular::CriticalState law(grains(ageing_adds, sticky), 2500, 200e-6);
     constexpr std::size_t end = Points::count / law_block * law_block;
     std::vector<MaterialColumns> found;
     for (const auto& [set, update] :
@@ -107,12 +101,10 @@ TEST(Material, EveryInstructionSetHasTheSameBits) {
       LawColumns columns{};
       for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = points.old.stress[c].data();
       for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
-      for (std::size_t c = 0; c < 6; ++c) columns.fabric[c] = points.old.history[2 + c].data();
-      for (std::size_t c = 0; c < 6; ++c) columns.next_fabric[c] = next.history[2 + c].data();
       for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
       columns.expansion = points.old.history[0].data(), columns.contacts = points.old.history[1].data();
       columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
-      columns.strengthening = points.old.history[8].data(), columns.next_strengthening = next.history[8].data();
+      columns.strengthening = points.old.history[2].data(), columns.next_strengthening = next.history[2].data();
       columns.density = points.density.data();
       columns.time_step = 1e-5;
       update(law.coefficients(), columns, 0, end);

@@ -54,7 +54,6 @@ TEST(Sector, FeelsWhatAWholeCircleOfItsCopiesFeels) {
   for (const auto& [degrees, parts] : {std::pair{90.0, false}, {30.0, false}, {20.0, false}, {20.0, true}})
     for (const bool walls : {false, true}) {
       Parameters p = parts ? silo_of_parts(degrees) : silo(degrees);
-      p.sph.viscosity_beta = 0.1, p.sph.hourglass_damping = 0.1, p.sph.density_diffusion = 0.1;
       const State s = disordered(p);
       const Sector sector = *sector_of(p);
       const State whole = unfolded(s, sector);
@@ -85,7 +84,6 @@ TEST(Sector, FeelsWhatAWholeCircleOfItsCopiesFeels) {
 
 TEST(Sector, AParticleThatLeavesItGoesOnInTheNextCopy) {
   Parameters p = silo(20);
-  p.sph.hourglass_damping = 0.1;
   State s = disordered(p);
   const Sector sector = *sector_of(p);
   const Domain domain = Boundary(p).domain();
@@ -106,13 +104,13 @@ TEST(Sector, AParticleThatLeavesItGoesOnInTheNextCopy) {
     const Vector3& u = s.velocity[7];
     return double_dot(tensor_at(columns, 7), {u.x * u.x, u.y * u.y, u.z * u.z, u.x * u.y, u.y * u.z, u.z * u.x});
   };
-  const double pushed = along_velocity(s.material.stress), stretched = along_velocity(s.deformation_rate);
+  const double pushed = along_velocity(s.material.stress), stretched = along_velocity(s.lasting_rate);
   const double speed = norm(s.velocity[7]);
   return_to_sector(domain, Material(p), s);
   for (const Vector3& x : s.position) EXPECT_EQ(sector.copy_at(x), 0);
   EXPECT_NEAR(along_velocity(s.material.stress), pushed, 1e-12 * 1000);
   EXPECT_NEAR(norm(s.velocity[7]), speed, 1e-15);
-  EXPECT_NEAR(along_velocity(s.deformation_rate), stretched, 1e-12 * 100);
+  EXPECT_NEAR(along_velocity(s.lasting_rate), stretched, 1e-12 * 100);
   for (const auto& [identity, after] : by_identity()) {
     EXPECT_LT(norm(after.first - before.at(identity).first), 1e-14);
     EXPECT_LT(norm(after.second - before.at(identity).second), 1e-14);

@@ -31,8 +31,7 @@ struct Sums {
     for (std::size_t i = 0; i < s.density.size(); ++i) h.push_back(pairs.smoothing_length(s.density[i], s.ratios()[i]));
     const std::vector<double> margin(h.size());
     pairs.find_neighbours(team, s.position, h, margin, s.mass_ratio);
-    pairs(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate, s.ratios()}, PairTerms::all,
-          rates);
+    pairs(team, {s.position, s.velocity, s.density, h, s.material, s.ratios()}, PairTerms::all, rates);
   }
 };
 
@@ -46,7 +45,7 @@ inline State disordered(const Parameters& p) {
     s.density[i] *= random.uniform(0.8, 1.1);
     s.velocity[i] = {some(1), some(1), some(1)};
     for (auto& column : s.material.stress) column[i] = some(1000);
-    for (auto& column : s.deformation_rate)
+    for (auto& column : s.lasting_rate)
       if (!column.empty()) column[i] = some(100);
   }
   return s;
@@ -64,12 +63,6 @@ inline State unfolded(const State& s, const Sector& sector) {
   if (!s.mass_ratio.empty()) whole.mass_ratio = copy(view.scalars("mass_ratio"));
   const char* const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
   for (std::size_t c = 0; c < 6; ++c) whole.material.stress[c] = copy(view.scalars(names[c]));
-  if (s.deformation_rate[0].empty()) return whole;
-  for (auto& column : whole.deformation_rate) column.resize(whole.position.size());
-  for (std::size_t n = 0; n < whole.position.size(); ++n)
-    set_tensor(whole.deformation_rate, n,
-               transformed(tensor_at(s.deformation_rate, n % s.position.size()),
-                           sector.turn(static_cast<int>(n / s.position.size()))));
   return whole;
 }
 

@@ -197,48 +197,6 @@ Tensor3<> pure_shear(double rate) {
   return {.xx = 0.5 * rate, .zz = -0.5 * rate};
 }
 
-TEST(CriticalState, ContractsAndIsWeakWhenItsShearTurnsBack) {
-  // So stiff that all strain is slip; neither rate nor packing matters but by the fabric.
-  const double pressure = 1000, increment = 1e-4;
-  const Parameters p{.bulk_modulus = 4.9e9,
-                     .shear_modulus = 2.94e9,
-                     .static_friction = 0.5,
-                     .dynamic_friction = 0.5,
-                     .packing_slope = 0,
-                     .dilatancy = 0,
-                     .ageing_strength = 0,
-                     .fabric_friction = 0.2,
-                     .fabric_contraction = 0.4,
-                     .fabric_strain = 0.3};
-  ShearedAtPressure grains{p, pressure};
-  const auto signed_friction = [&] { return (grains.point.stress.zz - grains.point.stress.xx) / (2 * pressure); };
-  // New grains: no fabric yet, 0.2 weaker than at last, and half of the contraction.
-  double strain = 0, last = state_packing(p, grains.point);
-  for (int k = 0; k < 5; ++k) {
-    grains.advance(pure_shear(1), increment, 500);
-    strain += 500 * increment;
-    EXPECT_NEAR(signed_friction(), 0.5 - 0.2 * std::exp(-strain / 0.3), 1e-4) << strain;
-    EXPECT_NEAR(std::log(state_packing(p, grains.point) / last), 0.2 * 0.3 * (1 - std::exp(-strain / 0.3)), 2e-5);
-  }
-  grains.advance(pure_shear(1), 1e-3, 10000);
-  EXPECT_NEAR(norm(grains.point.history.fabric), 1, 1e-9);
-  EXPECT_NEAR(signed_friction(), 0.5, 1e-6);
-  // Turned back: first from 0.5 less twice 0.2 the other way, and all of the contraction.
-  last = state_packing(p, grains.point), strain = 0;
-  for (int k = 0; k < 10; ++k) {
-    grains.advance(pure_shear(-1), increment, 500);
-    strain += 500 * increment;
-    EXPECT_NEAR(signed_friction(), -(0.5 - 2 * 0.2 * std::exp(-strain / 0.3)), 2e-4) << strain;
-    EXPECT_NEAR(std::log(state_packing(p, grains.point) / last), 0.4 * 0.3 * (1 - std::exp(-strain / 0.3)), 3e-5);
-  }
-  // Grains that part keep their fabric until they are sheared.
-  Point apart = grains.law.update(grains.point, {}, 0.5 * grain_density, increment);
-  EXPECT_EQ(apart.history.fabric, grains.point.history.fabric);
-  for (int k = 0; k < 3000; ++k) apart = grains.law.update(apart, pure_shear(1), 0.5 * grain_density, increment);
-  EXPECT_EQ(apart.stress, SymmetricTensor3<>{});
-  EXPECT_NEAR(norm(apart.history.fabric), std::exp(-1.0) * norm(grains.point.history.fabric), 1e-3);
-}
-
 TEST(CriticalState, TurnsItsStressWithAStressedBlock) {
   const Tensor3<> spin{.xz = M_PI / 2, .zx = -M_PI / 2};
   const auto points =
@@ -257,13 +215,11 @@ TEST(CriticalState, AnswersTheSameInAnyAxes) {
   const Tensor3<> rotation = rotation_about_z(0.3) * rotation_about_y(1.1);
   std::vector<PathStretch> other = path;
   for (PathStretch& stretch : other) stretch.velocity_gradient = turned(stretch.velocity_gradient, rotation);
-  for (const Parameters& p : {Parameters{}, Parameters{.fabric_friction = 0.2, .fabric_contraction = 0.4}}) {
-    const AnyLaw law = make_law(p, grain_density, diameter);
-    const auto points = follow_path(law, path, {.points = 5}), others = follow_path(law, other, {.points = 5});
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      expect_near(others[k].stress, transformed(points[k].stress, rotation), 1e-6);
-      EXPECT_NEAR(others[k].history[0], points[k].history[0], 1e-12);
-    }
+  const AnyLaw law = make_law(Parameters{}, grain_density, diameter);
+  const auto points = follow_path(law, path, {.points = 5}), others = follow_path(law, other, {.points = 5});
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    expect_near(others[k].stress, transformed(points[k].stress, rotation), 1e-6);
+    EXPECT_NEAR(others[k].history[0], points[k].history[0], 1e-12);
   }
 }
 
@@ -278,15 +234,7 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
                .dilatancy = 10,
                .dilatant_friction = 0.2,
                .ageing_strength = 0};
-  Parameters turning = half, slippery_turning = slippery;
-  turning.fabric_friction = slippery_turning.fabric_friction = 0.2;
-  turning.fabric_contraction = slippery_turning.fabric_contraction = 0.2;
-  for (const auto& [p, amplitude] : {std::pair{loose, 4e-4},
-                                     {dense, 4e-4},
-                                     {half, 1e-4},
-                                     {slippery, 2e-5},
-                                     {turning, 1e-4},
-                                     {slippery_turning, 2e-5}}) {
+  for (const auto& [p, amplitude] : {std::pair{loose, 4e-4}, {dense, 4e-4}, {half, 1e-4}, {slippery, 2e-5}}) {
     const double start = p.reference_packing;
     const AnyLaw law = make_law(p, grain_density, diameter);
     double min_heat = 0, max_stored = 0;
@@ -326,9 +274,6 @@ TEST(CriticalState, NamesContradictions) {
   EXPECT_TRUE(CriticalState::check({}).empty());
   ASSERT_EQ(CriticalState::check({.static_friction = 0.5, .dynamic_friction = 0.4}).size(), 1u);
   EXPECT_EQ(CriticalState::check({.static_friction = 0.5, .dynamic_friction = 0.4})[0].key, "dynamic_friction");
-  ASSERT_EQ(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.31}).size(), 1u);
-  EXPECT_EQ(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.31})[0].key, "fabric_friction");
-  EXPECT_TRUE(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.3}).empty());
   EXPECT_EQ(CriticalState::check({.reference_packing = 0.45})[0].key, "reference_packing");
   EXPECT_EQ(CriticalState::check({.packing_slope = 1.7})[0].key, "packing_slope");
 }

@@ -21,24 +21,23 @@ namespace {
 std::vector<LawParameters> many_laws() {
   using Isotropic = YuuUmekageIsotropic::Parameters;
   using Printed = YuuUmekagePrinted::Parameters;
-  return {
-      Isotropic{},
-      Isotropic{.fits = {.tables = Tables::printed}, .unloading = Unloading::none},
-      Isotropic{.contact = {.volume = Volume::strain},
-                .unloading = Unloading::pressure,
-                .rule = {.reset = Reset::strain, .smoothing_time = 1e-5}},
-      Isotropic{.unloading = Unloading::shear, .rule = {.reset = Reset::deviator, .main_strain = MainStrain::volume}},
-      Printed{.fits = {.tables = Tables::printed},
-              .contact = {.volume = Volume::strain},
-              .shear_sum = ShearSum::with_signs,
-              .rule = {.reset = Reset::strain, .smoothing_time = 0}},
-      Printed{.rule = {.reset = Reset::deviator, .smoothing_time = 1e-4}},
-      Printed{.unloading = PrintedUnloading::none},
-      DruckerPrager::Parameters{},
-      DruckerPrager::Parameters{.friction = 0.4, .contact = {.volume = Volume::strain}},
-      CriticalState::Parameters{},
-      CriticalState::Parameters{.dilatancy = 0, .ageing_strength = 0},
-      LinearElastic::Parameters{}};
+  return {Isotropic{},
+          Isotropic{.fits = {.tables = Tables::printed}, .unloading = Unloading::none},
+          Isotropic{.contact = {.volume = Volume::strain},
+                    .unloading = Unloading::pressure,
+                    .rule = {.reset = Reset::strain, .smoothing_time = 1e-5}},
+          Isotropic{.unloading = Unloading::shear, .rule = {.reset = Reset::deviator}},
+          Printed{.fits = {.tables = Tables::printed},
+                  .contact = {.volume = Volume::strain},
+                  .shear_sum = ShearSum::with_signs,
+                  .rule = {.reset = Reset::strain, .smoothing_time = 0}},
+          Printed{.rule = {.reset = Reset::deviator, .smoothing_time = 1e-4}},
+          Printed{.unloading = PrintedUnloading::none},
+          DruckerPrager::Parameters{},
+          DruckerPrager::Parameters{.friction = 0.4, .contact = {.volume = Volume::strain}},
+          CriticalState::Parameters{},
+          CriticalState::Parameters{.dilatancy = 0, .ageing_strength = 0},
+          LinearElastic::Parameters{}};
 }
 
 TEST(Law, LanesEqualNumbersAlone) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -64,6 +66,30 @@ TEST(ShearCell, WithoutCohesionThereIsNoStrength) {
   EXPECT_NEAR(test.locus.cohesion, 0, 2);
   EXPECT_NEAR(test.strength_of_cylinder, 0, 2);
   EXPECT_NEAR(test.locus.effective_angle, std::atan(0.5), 0.01);
+}
+
+TEST(ShearCell, OnAWallSlidesAtItsLocusOrFailsItself) {
+  const AnyLaw law = make_law(powder(0.5), 2500);
+  const double load = 4000, a = 100 + 0.2 * load;
+  const std::vector<double> normals = {800, 2000, 3200, load};
+  const auto on = [&](std::optional<CellWall> wall) {
+    return shear_test(law, load, fractions, {.density = 1500, .wall = wall}).on_wall;
+  };
+  EXPECT_TRUE(on(std::nullopt).empty());
+  const std::vector<YieldPoint> smooth = on(CellWall{.coefficient = 0.3, .adhesion = 150}),
+                                rough = on(CellWall{.coefficient = 0.9, .adhesion = 0}),
+                                sticky = on(CellWall{.coefficient = 0.3, .adhesion = 500});
+  ASSERT_EQ(smooth.size(), normals.size());
+  for (std::size_t n = 0; n < normals.size(); ++n) {
+    EXPECT_EQ(smooth[n].normal, normals[n]);
+    EXPECT_DOUBLE_EQ(smooth[n].shear, 0.3 * normals[n] + 150);
+    const double own = 0.5 * (normals[n] + a);
+    EXPECT_NEAR(rough[n].shear, std::min(own, 0.9 * normals[n]), 0.01 * own);
+    EXPECT_NEAR(sticky[n].shear, std::min(own, 0.3 * normals[n] + 500), 0.01 * own);
+  }
+  // Both walls are met on one side of their crossing and the grains on the other.
+  EXPECT_LT(rough.front().shear, 0.95 * 0.5 * (800 + a));
+  EXPECT_LT(rough.back().shear, 0.95 * 0.9 * load);
 }
 
 TEST(ShearCell, EvaluatesAsTheTradeDoes) {

@@ -64,10 +64,9 @@ TEST(YuuUmekageIsotropic, AnswersTheSameInAnyAxes) {
       {1, squash(3e-4)}, {1, 2e-3 * odd}, {1, -3e-4 * odd}, {1, squeeze(-1e-4)}, {1, 1e-3 * transpose(odd)}};
   for (const YuuUmekageIsotropic::Parameters& parameters :
        {YuuUmekageIsotropic::Parameters{}, YuuUmekageIsotropic::Parameters{.unloading = Unloading::none},
-        YuuUmekageIsotropic::Parameters{
-            .fits = {.tables = Tables::printed}, .contact = {.volume = Volume::strain}, .unloading = Unloading::shear},
-        YuuUmekageIsotropic::Parameters{
-            .rule = {.reset = Reset::deviator, .main_strain = MainStrain::volume, .smoothing_time = 0.01}}}) {
+        YuuUmekageIsotropic::Parameters{.fits = {.tables = Tables::printed},
+        .contact = {.volume = Volume::strain},
+        .unloading = Unloading::shear}}) {
     const AnyLaw law = make_law(parameters, 2500);
     const auto points = follow_path(law, path, {.points = 10});
     for (const Tensor3<>& rotation :

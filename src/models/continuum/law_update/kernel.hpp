@@ -13,15 +13,13 @@ namespace talus::continuum {
 struct LawColumns {
   const double* stress[6];
   const double *expansion, *contacts;  ///< CriticalState::History
-  const double* fabric[6];             ///< the same; read where the law has fabric
   const double* strengthening;         ///< the same; read where the law has cohesion
   const double* velocity_gradient[9];
   const double* density;
   double time_step;
   double* next_stress[6];
   double *next_expansion, *next_contacts;  ///< null: not written
-  double* next_fabric[6];                  ///< written with the former where the law has fabric
-  double* next_strengthening;              ///< and where it has cohesion
+  double* next_strengthening;              ///< written with the former where the law has cohesion
 };
 
 /// Particles updated together: their number is a multiple of it.

@@ -20,19 +20,14 @@ TALUS_INLINE void store(const Number& x, double* values) {
 
 void TALUS_FOR_SET(update_law)(const granular::CriticalStateCoefficients& law, const LawColumns& c, std::size_t first,
                                std::size_t end) {
-  const bool has_fabric = law.parameters.has_fabric(), has_cohesion = law.parameters.has_cohesion();
+  const bool has_cohesion = law.parameters.has_cohesion();
   for (std::size_t i = first; i < end; i += Number::lanes) {
     const auto stress = [&](int k) { return load(c.stress[k] + i); };
     const auto l = [&](int k) { return load(c.velocity_gradient[k] + i); };
     granular::CriticalStatePoint<Number> old{{stress(0), stress(1), stress(2), stress(3), stress(4), stress(5)},
                                              load(c.expansion + i),
                                              load(c.contacts + i),
-                                             {},
                                              0.0};
-    if (has_fabric) {
-      const auto f = [&](int k) { return load(c.fabric[k] + i); };
-      old.fabric = {f(0), f(1), f(2), f(3), f(4), f(5)};
-    }
     if (has_cohesion) old.strengthening = load(c.strengthening + i);
     const granular::CriticalStatePoint<Number> point =
         granular::updated(law, old, Tensor3<Number>{l(0), l(1), l(2), l(3), l(4), l(5), l(6), l(7), l(8)},
@@ -44,10 +39,6 @@ void TALUS_FOR_SET(update_law)(const granular::CriticalStateCoefficients& law, c
     store(point.expansion, c.next_expansion + i);
     store(point.contacts, c.next_contacts + i);
     if (has_cohesion) store(point.strengthening, c.next_strengthening + i);
-    if (!has_fabric) continue;
-    const Number next_fabric[6] = {point.fabric.xx, point.fabric.yy, point.fabric.zz,
-                                   point.fabric.xy, point.fabric.yz, point.fabric.zx};
-    for (int k = 0; k < 6; ++k) store(next_fabric[k], c.next_fabric[k] + i);
   }
 }
 

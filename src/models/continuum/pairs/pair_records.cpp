@@ -99,41 +99,32 @@ double quantum_for(double reach) {
   return std::exp2(std::ceil(std::log2(reach)) + 2 - 32);
 }
 
-/// d x_j - x_i of the source, as the image has it.
-Vector3 displaced(const Image& image, const Vector3& d) {
-  return image.position(d) - image.position({});
-}
-
-DampingRecord record_of(const SymmetricTensor3<>& rate, double sound_speed, double loaded) {
-  return {{rate.xx, rate.yy, rate.zz, rate.xy, rate.yz, rate.zx}, sound_speed, loaded};
-}
-
-/// The same in single precision, number by number.
-template <class Single, class Record>
-void round_to_single(ThreadTeam& team, const std::vector<Record>& records, std::vector<Single>& single) {
-  static_assert(sizeof(Record) / sizeof(double) == sizeof(Single) / sizeof(float));
-  single.resize(records.size());
-  for_each(team, records.size(), [&](std::size_t r) {
-    const double* const from = reinterpret_cast<const double*>(&records[r]);
-    float* const to = reinterpret_cast<float*>(&single[r]);
-    for (std::size_t n = 0; n < sizeof(Record) / sizeof(double); ++n) to[n] = static_cast<float>(from[n]);
-  });
-}
-
 }  // namespace
 
 /// Walls of a vessel read the records in double precision whatever that of the pairs.
-void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
+void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, Held held,
+                       bool stresses) {
+  const auto n = static_cast<std::size_t>(held);
   const bool in_single = options_.precision == PairPrecision::in_single;
-  if (in_single) pack_single(team, lists, particles, stresses);
-  if (!in_single || options_.always_double) pack_double(team, lists, particles, stresses);
+  if (in_single) pack_single(team, lists, particles, packed_[n], stresses);
+  if (!in_single || options_.always_double)
+    pack_double(team, lists, particles, in_single ? at_walls_[n] : packed_[n], stresses);
 }
 
-void PairRecords::find_read_by_walls(const PairLists& lists, std::span<const std::uint32_t> at_walls) {
-  if (options_.precision != PairPrecision::in_single) return;
+void PairRecords::find_packed(const PairLists& lists, std::span<const std::uint32_t> at_walls) {
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
   const std::size_t count = neighbourhood.particles();
+  const auto held = [&](std::size_t i) { return neighbourhood.is_copy(i) ? 1u : 0u; };
+  for (const Held which : {Held::owned, Held::copied}) {
+    Packed& packed = packed_[static_cast<std::size_t>(which)];
+    packed.clear();
+    packed.all = which == Held::owned && !neighbourhood.has_copies();
+    packed.ghosts.assign(lists.packed_ghosts(which).begin(), lists.packed_ghosts(which).end());
+    at_walls_[static_cast<std::size_t>(which)].clear();
+  }
+  for (std::uint32_t i = 0; i < count && neighbourhood.has_copies(); ++i) packed_[held(i)].particles.push_back(i);
+  if (options_.precision != PairPrecision::in_single) return;
   std::vector<char> is_read(count + ghosts.size(), 0);
   for (const std::uint32_t i : at_walls) {
     is_read[i] = 1;
@@ -143,23 +134,26 @@ void PairRecords::find_read_by_walls(const PairLists& lists, std::span<const std
       if (n >= count) is_read[ghosts[n - count].source] = 1;
     }
   }
-  wall_particles_.clear(), wall_ghosts_.clear();
-  for (std::uint32_t n = 0; n < is_read.size(); ++n)
-    if (is_read[n])
-      n < count ? wall_particles_.push_back(n) : wall_ghosts_.push_back(n - static_cast<std::uint32_t>(count));
+  for (std::uint32_t n = 0; n < is_read.size(); ++n) {
+    if (!is_read[n]) continue;
+    if (n < count)
+      at_walls_[held(n)].particles.push_back(n);
+    else
+      at_walls_[held(ghosts[n - count].source)].ghosts.push_back(n - static_cast<std::uint32_t>(count));
+  }
 }
 
 /// Records of images are made from those of their sources. What only forces read is packed for them only.
-void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
+void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
+                              const Packed& packed, bool stresses) {
   const std::size_t count = particles.position.size();
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
-  const bool are_all = options_.precision != PairPrecision::in_single;
-  const std::span<const std::uint32_t> packed_ghosts = are_all ? lists.packed_ghosts() : wall_ghosts_;
+  const std::span<const std::uint32_t> packed_ghosts = packed.ghosts;
   make_room(motion_, count + ghosts.size() + 1);
   make_room(stress_, motion_.size());
-  for_each(team, are_all ? count : wall_particles_.size(), [&](std::size_t n) {
-    const std::size_t i = are_all ? n : wall_particles_[n];
+  for_each(team, packed.all ? count : packed.particles.size(), [&](std::size_t n) {
+    const std::size_t i = packed.all ? n : packed.particles[n];
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
     motion_[i] = {{x.x, x.y, x.z},
@@ -195,16 +189,18 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
   stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 
-void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
+void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
+                              const Packed& packed, bool stresses) {
   const std::size_t count = particles.position.size();
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
-  const auto packed_ghosts = lists.packed_ghosts();
+  const std::span<const std::uint32_t> packed_ghosts = packed.ghosts;
   quantum_ = quantum_for(neighbourhood.reach());
   const double per_quantum = 1 / quantum_;
   make_room(single_motion_, count + ghosts.size() + 1);
   make_room(single_stress_, single_motion_.size());
-  for_each(team, count, [&](std::size_t i) {
+  for_each(team, packed.all ? count : packed.particles.size(), [&](std::size_t n) {
+    const std::size_t i = packed.all ? n : packed.particles[n];
     const double density = particles.density[i];
     single_motion_[i] =
         single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),
@@ -263,52 +259,8 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
   single_stress_.back() = {{}, count > 0 ? single_stress_.front().half_density : 1, 0};
 }
 
-void PairRecords::pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
-                               double sound_speed, bool everywhere) {
-  const std::size_t count = particles.position.size();
-  const Neighbourhood& neighbourhood = lists.neighbourhood();
-  const auto ghosts = neighbourhood.ghosts();
-  const auto packed_ghosts = lists.packed_ghosts();
-  const bool rates = !particles.deformation_rate[0].empty();
-  damping_.resize(count + ghosts.size() + 1);
-  for_each(team, count, [&](std::size_t i) {
-    const bool loaded = trace(stress_of(particles.material, i)) > 0;
-    damping_[i] = record_of(rates ? tensor_at(particles.deformation_rate, i) : SymmetricTensor3<>{},
-                            loaded || everywhere ? sound_speed : 0, loaded ? 1.0 : 0.0);
-  });
-  for_each(team, packed_ghosts.size(), [&](std::size_t n) {
-    const std::size_t g = packed_ghosts[n];
-    const DampingRecord& source = damping_[ghosts[g].source];
-    const double* const r = source.deformation_rate;
-    damping_[count + g] = record_of(neighbourhood.image(ghosts[g]).tensor({r[0], r[1], r[2], r[3], r[4], r[5]}),
-                                    source.sound_speed, source.loaded);
-  });
-  damping_.back() = {};
-  if (options_.precision == PairPrecision::in_single) round_to_single(team, damping_, single_damping_);
-}
-
-void PairRecords::set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own) {
-  const std::size_t count = own.size();
-  const Neighbourhood& neighbourhood = lists.neighbourhood();
-  const auto ghosts = neighbourhood.ghosts();
-  diffusion_.assign(count + ghosts.size() + 1, {});
-  std::copy(own.begin(), own.end(), diffusion_.begin());
-  for_each(team, ghosts.size(), [&](std::size_t g) {
-    DiffusionRecord ghost = diffusion_[ghosts[g].source];
-    double* const slope = ghost.density_gradient;
-    const Vector3 turned = displaced(neighbourhood.image(ghosts[g]), {slope[0], slope[1], slope[2]});
-    for (int axis = 0; axis < 3; ++axis) slope[axis] = turned[axis];
-    diffusion_[count + g] = ghost;
-  });
-  if (options_.precision == PairPrecision::in_single) round_to_single(team, diffusion_, single_diffusion_);
-}
-
 Records PairRecords::view() const {
-  return {motion_.data(),
-          stress_.data(),
-          damping_.data(),
-          diffusion_.data(),
-          {single_motion_.data(), single_stress_.data(), single_damping_.data(), single_diffusion_.data(), quantum_}};
+  return {motion_.data(), stress_.data(), {single_motion_.data(), single_stress_.data(), quantum_}};
 }
 
 }  // namespace talus::continuum

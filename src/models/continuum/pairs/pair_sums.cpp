@@ -28,31 +28,23 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
       grain_density_(setup.given.grains.density),
       skin_(setup.given.integration.skin * setup.given.bed.spacing),
       stress_form_(setup.given.sph.stress_form),
-      corrected_continuity_(setup.given.sph.continuity == Continuity::corrected),
       asks_stress_around_(stress_regularisation(setup.given) > 0),
       precision_(setup.given.integration.pair_precision),
       constants_{.mass = masses_ == Masses::equal ? mass_ : 0,
                  .sound_speed = setup.sound_speed,
                  .viscosity_alpha = setup.given.sph.viscosity_alpha,
-                 .viscosity_beta = setup.given.sph.viscosity_beta,
-                 .density_diffusion = 2 * setup.given.sph.density_diffusion * setup.sound_speed,
-                 .hourglass_damping = setup.given.sph.hourglass_damping * setup.sound_speed,
                  .artificial_stress = artificial_stress(setup.given),
                  .nearness = 1 / sph::cubic_spline_shape_of(1 / setup.given.sph.smoothing_ratio)},
-      diffuses_(setup.given.sph.density_diffusion > 0),
-      damps_(setup.given.sph.hourglass_damping > 0 || setup.given.sph.viscosity_speed == ViscositySpeed::local),
-      local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
       lists_(domain, vessel),
       vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields, setup.sector(),
               static_cast<int>(setup.given.levels.count)),
-      walls_(vessel_, lists_, constants_, local_sound_speed_),
+      walls_(vessel_, lists_, constants_),
       records_(
           {mass_, grain_density_, stress_form_, precision_, constants_.artificial_stress > 0, !vessel.is_empty()}) {
   const InstructionSet set = resolve(setup.given.integration.instruction_set);
   const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
     return TALUS_COMPILED_FOR(set, sum_neighbours)(
-        terms, are_stabilised(terms) ? Stabilisers::acting : Stabilisers::none, precision_,
-        asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient, masses_);
+        terms, precision_, asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient, masses_);
   };
   for (const PairTerms terms : {PairTerms::all, PairTerms::gradients, PairTerms::forces}) {
     const auto n = static_cast<std::size_t>(terms);
@@ -60,14 +52,6 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
     sum_at_vessel_[n] = choose(terms, StressGradient::asked);
   }
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
-  if (diffuses_)
-    density_gradients_ =
-        TALUS_COMPILED_FOR(set, sum_neighbours)(PairTerms::gradients, Stabilisers::prepared, precision_,
-                                                StressAround::unasked, StressGradient::unasked, masses_);
-}
-
-bool PairSums::are_stabilised(PairTerms terms) const {
-  return (terms != PairTerms::forces && diffuses_) || (terms != PairTerms::gradients && damps_);
 }
 
 double PairSums::smoothing_length(double density, double mass_ratio) const {
@@ -93,51 +77,25 @@ void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> 
 
 void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                                std::span<const double> smoothing_length, std::span<const double> margin,
-                               std::span<const double> mass_ratio, const PartOfPoints& part, Halo* halo) {
-  halo_ = halo;
+                               std::span<const double> mass_ratio, const PartOfPoints& part) {
   lists_.build(team, position, smoothing_length, margin, part);
   vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin, mass_ratio);
-  records_.find_read_by_walls(lists_, vessel_.particles());
+  records_.find_packed(lists_, vessel_.particles());
+  for (auto& blocks : blocks_) blocks.clear();
+  constexpr std::size_t together = ParticleSums::together;
+  for (std::size_t first = 0; first < position.size(); first += together) {
+    bool inner = true;
+    for (std::size_t i = first; i < std::min(first + together, position.size()) && inner; ++i)
+      inner = !lists_.neighbourhood().has_copies() || (!lists_.neighbourhood().is_copy(i) && lists_.is_inner(i));
+    blocks_[inner ? 0 : 1].push_back(static_cast<std::uint32_t>(first / together));
+  }
 }
 
-/// Packing above which the density diffuses: grains that touch, and no free surface between them.
-constexpr double min_diffusing_packing = 0.5;
-
-void PairSums::find_density_gradients(ThreadTeam& team, const ParticleView& particles) {
-  density_gradient_.resize(particles.position.size());
-  const Records all = records_.view();
-  for_each(team, density_gradient_.size(), [&](std::size_t i) {
-    thread_local PairLists::Visible memory;
-    ParticleSums sums;
-    density_gradients_(all, static_cast<std::uint32_t>(i), lists_.visible_from(particles.position, i, memory),
-                       constants_, sums);
-    const double *m = sums.moment, *r = sums.density_gradient;
-    // The density is corrected as a velocity is: as the x component of one.
-    const Tensor3<> density = sph::velocity_gradient(
-        {SymmetricTensor3<>{m[0], m[1], m[2], m[3], m[4], m[5]}, {.xx = r[0], .xy = r[1], .xz = r[2]}});
-    density_gradient_[i] = {{density.xx, density.xy, density.xz},
-                            particles.density[i] > min_diffusing_packing * grain_density_ ? 1.0 : 0.0,
-                            {}};
-  });
-  if (halo_) halo_->refresh(std::array{Halo::column(std::span(density_gradient_))});
-}
-
-/// Records of particles and images, of stabilisers where they act, and the walls of the vessel as they are met.
-void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms) {
-  const bool stresses = terms != PairTerms::gradients || diffuses_ || masses_ == Masses::unequal;
-  records_.pack(team, lists_, particles, stresses);
-  // In half a step particles hardly move: the gradients take the walls as the forces met them.
-  if (!vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met()))
-    vessel_.meet(team, particles.position, particles.smoothing_length);
-  if (!are_stabilised(terms)) return;
-  if (terms != PairTerms::gradients)
-    records_.pack_damping(team, lists_, particles, constants_.sound_speed, !local_sound_speed_);
-  if (terms == PairTerms::forces) return;
-  if (diffuses_)
-    find_density_gradients(team, particles);
-  else
-    density_gradient_.assign(particles.position.size(), {});
-  records_.set_diffusion(team, lists_, density_gradient_);
+/// Records of particles and images, and the walls of the vessel as they are met.
+void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Held held, bool meets_walls) {
+  const bool stresses = terms != PairTerms::gradients || masses_ == Masses::unequal;
+  records_.pack(team, lists_, particles, held, stresses);
+  if (meets_walls) vessel_.meet(team, particles.position, particles.smoothing_length, held);
 }
 
 void PairSums::make_room(PairTerms terms, std::size_t count, Rates& rates) const {
@@ -154,10 +112,22 @@ void PairSums::make_room(PairTerms terms, std::size_t count, Rates& rates) const
   rates.by_walls.value.resize(lists_.first_wall().back());
 }
 
-void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates) {
+void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates,
+                          const std::function<void()>& arrive) {
+  make_room(terms, particles.position.size(), rates);
+  // In half a step particles hardly move: the gradients take the walls as the forces met them.
+  const bool meets_walls = !vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met());
+  pack(team, particles, terms, Held::owned, meets_walls);
+  sum(team, particles, terms, blocks_[0], rates);
+  if (arrive) arrive();
+  if (!lists_.neighbourhood().has_copies()) return;
+  pack(team, particles, terms, Held::copied, meets_walls);
+  sum(team, particles, terms, blocks_[1], rates);
+}
+
+void PairSums::sum(ThreadTeam& team, const ParticleView& particles, PairTerms terms,
+                   std::span<const std::uint32_t> blocks, Rates& rates) const {
   const std::size_t count = particles.position.size();
-  make_room(terms, count, rates);
-  pack(team, particles, terms);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   const SumNeighbours sum_at_vessel = sum_at_vessel_[static_cast<std::size_t>(terms)];
   const Records all = records_.view();
@@ -186,10 +156,7 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
       velocity_gradients_(sums, gradient);
       for (std::size_t c = 0; c < 9; ++c)
         std::copy_n(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
-      for (std::size_t n = 0; n < size; ++n)
-        rates.density_rate[first + n] =
-            corrected_continuity_ ? -particles.density[first + n] * (gradient[0][n] + gradient[4][n] + gradient[8][n])
-                                  : sums[n].density_rate;
+      for (std::size_t n = 0; n < size; ++n) rates.density_rate[first + n] = sums[n].density_rate;
     }
     if (terms == PairTerms::gradients) return;
     for (std::size_t n = 0; n < size; ++n) {
@@ -202,10 +169,9 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
                   rates.by_walls.value.data() + lists_.first_wall()[i]);
     }
   };
-  const std::size_t blocks = (count + together - 1) / together;
-  team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
-    for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
-      compute(b * together);
+  team.run((blocks.size() + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
+    for (std::size_t b = task * blocks_at_once; b < std::min(blocks.size(), (task + 1) * blocks_at_once); ++b)
+      compute(blocks[b] * together);
   });
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,6 @@
 #include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/wall_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
-#include "ranks/halo.hpp"
 
 namespace talus::continuum {
 
@@ -35,11 +35,10 @@ class PairSums {
                               std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
-  /// of the skin \param mass_ratio of the particles, empty: 1 \param part, halo of the particles that other processes
-  /// own; the halo outlives the lists
+  /// of the skin \param mass_ratio of the particles, empty: 1 \param part of the particles that other processes own
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
                        std::span<const double> margin, std::span<const double> mass_ratio = {},
-                       const PartOfPoints& part = {}, Halo* halo = nullptr);
+                       const PartOfPoints& part = {});
   /// The same with half of the skin for all.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
     find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
@@ -53,15 +52,16 @@ class PairSums {
   PairSums(const PairSums&) = delete;
   PairSums& operator=(const PairSums&) = delete;
 
-  /// Packs the records, then computes the requested rates. \pre columns hold the halo's values too
-  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates);
+  /// Packs the records, and computes the requested rates. \param arrive makes columns hold the halo's values, null:
+  /// they do; before it is called, particles without copies among their neighbours are summed
+  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates,
+                  const std::function<void()>& arrive = nullptr);
 
  private:
-  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms);
-  void find_density_gradients(ThreadTeam& team, const ParticleView& particles);
+  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Held held, bool meets_walls);
+  void sum(ThreadTeam& team, const ParticleView& particles, PairTerms terms, std::span<const std::uint32_t> blocks,
+           Rates& rates) const;
   void make_room(PairTerms terms, std::size_t count, Rates& rates) const;
-  /// Whether stabilisers act on these sums, which then read their records, whichever of them act.
-  bool are_stabilised(PairTerms terms) const;
   SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const ParticleSums& sums) const;
 
   double mass_;  // of mass ratio 1
@@ -71,20 +71,17 @@ class PairSums {
   double grain_density_;
   double skin_;
   sph::StressForm stress_form_;
-  bool corrected_continuity_;
   bool asks_stress_around_;
   PairPrecision precision_;
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_, sum_at_vessel_;  // by PairTerms; that of particles that meet walls of the vessel
   VelocityGradients* velocity_gradients_;
-  SumNeighbours density_gradients_ = nullptr;  // null: densities do not diffuse
-  bool diffuses_, damps_, local_sound_speed_;
-  Halo* halo_ = nullptr;  // null: this process owns all particles
   PairLists lists_;
   VesselWalls vessel_;
   WallSums walls_;
   PairRecords records_;
-  std::vector<DiffusionRecord> density_gradient_;  // of the particles
+  /// Blocks of ParticleSums::together particles: those with no copy among their neighbours, and the others.
+  std::array<std::vector<std::uint32_t>, 2> blocks_;
 };
 
 }  // namespace talus::continuum

@@ -69,8 +69,7 @@ struct ParticleView {
   std::span<const double> density;
   std::span<const double> smoothing_length;  ///< of these densities (PairSums::smoothing_length)
   const MaterialColumns& material;
-  const std::array<std::vector<double>, 6>& deformation_rate;  ///< State::deformation_rate
-  MassRatios mass_ratio = {};                                  ///< State::ratios
+  MassRatios mass_ratio = {};  ///< State::ratios
 };
 
 }  // namespace talus::continuum

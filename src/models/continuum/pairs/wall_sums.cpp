@@ -101,7 +101,7 @@ double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& su
 /// Writes the forces of the walls on a particle, in the order in which it meets them. \param records of the pairs
 /// \param sums over the particle's neighbours
 void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self, const StressSums& sums,
-                          const PairConstants& constants, double sound_speed, WallForces& forces) {
+                          const PairConstants& constants, WallForces& forces) {
   forces.count = 0;
   const NearWalls met = walls.of(self);
   if (met.empty()) return;
@@ -110,7 +110,6 @@ void find_forces_of_walls(const VesselWalls& walls, const Records& records, std:
   const SymmetricTensor3<> stress = stress_at(records.stress[self]);
   const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(records, self, sums);
   const Vector3 velocity{own.velocity[0], own.velocity[1], own.velocity[2]};
-  const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   for (const NearWall& wall : met) {
     const Vector3& n = wall.normal;
     const SymmetricTensor3<> m = wall.moment();
@@ -125,7 +124,7 @@ void find_forces_of_walls(const VesselWalls& walls, const Records& records, std:
     const double approach = dot(velocity, n);
     const double mu = 2 * own.half_length * approach * wall.sums.nearness / wall.sums.weight;
     if (mu < 0) {
-      const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
+      const double viscosity = -constants.viscosity_alpha * constants.sound_speed * mu / density;
       a += viscosity * upright;
     }
     forces.of[forces.count++] = {wall.patch, wall.fields, n, (-density * a) * n, 2 * std::abs(upright) / density};
@@ -149,10 +148,8 @@ void WallSums::add_gradients(const ParticleView& particles, std::size_t i, Parti
 void WallSums::add_forces(const ParticleView& particles, std::size_t i, const Records& records,
                           const Neighbours& neighbours, ParticleSums& sums, Rates& rates) const {
   const NearWalls met = walls_.of(i);
-  const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   WallForces& forces = rates.vessel[static_cast<std::size_t>(walls_.place_of(i))];
-  find_forces_of_walls(walls_, records, i, sums.stress_gradient, constants_, silent ? 0 : constants_.sound_speed,
-                       forces);
+  find_forces_of_walls(walls_, records, i, sums.stress_gradient, constants_, forces);
   if (met.empty()) return;
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   Vector3 acceleration;

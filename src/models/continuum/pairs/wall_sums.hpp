@@ -22,9 +22,8 @@ namespace talus::continuum {
 class WallSums {
  public:
   /// \param walls, lists, constants outlive the sums
-  /// \param local_sound_speed whether a particle without pressure has no viscosity at walls
-  WallSums(const VesselWalls& walls, const PairLists& lists, const PairConstants& constants, bool local_sound_speed)
-      : walls_(walls), lists_(lists), constants_(constants), local_sound_speed_(local_sound_speed) {}
+  WallSums(const VesselWalls& walls, const PairLists& lists, const PairConstants& constants)
+      : walls_(walls), lists_(lists), constants_(constants) {}
 
   /// To the sums of a particle's velocity gradient and density rate.
   void add_gradients(const ParticleView& particles, std::size_t i, ParticleSums& sums) const;
@@ -38,7 +37,6 @@ class WallSums {
   const VesselWalls& walls_;
   const PairLists& lists_;
   const PairConstants& constants_;
-  bool local_sound_speed_;
 };
 
 }  // namespace talus::continuum

@@ -16,8 +16,6 @@ namespace talus::continuum {
 enum class Accuracy { draft, design, reference };
 enum class GateOpens { when_settled, at_time, from_the_start };
 enum class Smoothing { local, fixed };
-enum class Continuity { printed, corrected };
-enum class ViscositySpeed { largest, local };
 enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
 /// How a bed gets its weight: everywhere at once, or layer by layer from below.
@@ -31,7 +29,7 @@ constexpr double default_courant(Method method) {
 }
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder, cement };
+enum class GrainMaterial { glass_beads, sand, wheat, maize, soybean, rapeseed, pharma_powder, cement };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
@@ -56,7 +54,6 @@ inline constexpr RenamedKey renamed_keys[] = {
     {"law.unloading", "unloading in the law's own table: law.yuu-umekage.unloading"},
     {"law.unloading_stiffness", "unloading_stiffness in the law's own table: law.yuu-umekage.unloading_stiffness"},
     {"law.reset", "reset in the law's own table: law.yuu-umekage.reset"},
-    {"law.main_strain", "main_strain in the law's own table: law.yuu-umekage.main_strain"},
     {"law.smoothing_time", "smoothing_time in the law's own table: law.yuu-umekage.smoothing_time"},
     {"law.strain", "law.yuu-umekage-printed.strain"},
     {"law.shear_sum", "law.yuu-umekage-printed.shear_sum"},
@@ -66,7 +63,6 @@ inline constexpr RenamedKey renamed_keys[] = {
     {"law.collisions", "collisions.form"},
     {"law.collision_normal", "collisions.normal"},
     {"law.collision_shear", "collisions.shear"},
-    {"law.collision_diagonal", "collisions.diagonal"},
     {"law.critical-state.friction", "law.critical-state.static_friction"},
     {"law.critical-state.fast_friction", "law.critical-state.dynamic_friction"},
     {"law.critical-state.loosest_packing", "law.critical-state.random_loose_packing"},
@@ -95,10 +91,6 @@ inline constexpr auto choices<continuum::Accuracy> = std::to_array<std::string_v
 template <>
 inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
 template <>
-inline constexpr auto choices<continuum::Continuity> = std::to_array<std::string_view>({"printed", "corrected"});
-template <>
-inline constexpr auto choices<continuum::ViscositySpeed> = std::to_array<std::string_view>({"largest", "local"});
-template <>
 inline constexpr auto choices<continuum::Friction> = std::to_array<std::string_view>({"coulomb", "printed", "none"});
 template <>
 inline constexpr auto choices<continuum::FrictionFrom> = std::to_array<std::string_view>({"gate", "start"});
@@ -110,8 +102,8 @@ template <>
 inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
 
 template <>
-inline constexpr auto choices<continuum::GrainMaterial> =
-    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder", "cement"});
+inline constexpr auto choices<continuum::GrainMaterial> = std::to_array<std::string_view>(
+    {"glass-beads", "sand", "wheat", "maize", "soybean", "rapeseed", "pharma-powder", "cement"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});

@@ -63,8 +63,7 @@ State initial_state(const Setup& setup, int part, int parts) {
                .collisional = parameters.collisions.form != granular::Collisions::none,
                .reset_position = material.by_displacements(),
                .sector_turns = setup.sector().has_value(),
-               .lasting_rate = draws_by_lasting_rate(parameters),
-               .deformation_rate = parameters.sph.hourglass_damping > 0};
+               .lasting_rate = draws_by_lasting_rate(parameters)};
   for (const std::size_t n : setup.beds) add_bed(setup.with_bed_alone(n), tag_of(parameters, n), state);
   const std::size_t given = parameters.bed.given ? parameters.bed.given->position.size() : 0;
   fit_to_walls(*setup.boundary, parameters.bed.spacing, given, state.position);
@@ -86,8 +85,6 @@ State initial_state(const Setup& setup, int part, int parts) {
   for (auto& column : state.material.stress) column.assign(count, 0.0);
   if (state.has.lasting_rate)
     for (auto& column : state.lasting_rate) column.assign(count, 0.0);
-  if (state.has.deformation_rate)
-    for (auto& column : state.deformation_rate) column.assign(count, 0.0);
   if (state.has.collisional)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.patch_impulse.assign(setup.boundary->patches().size(), Vector3{});

@@ -302,12 +302,12 @@ void check_beds_together(const Layout& layout, std::vector<Problem>& problems) {
 }  // namespace
 
 bool is_loose_where_free(const Parameters& p) {
-  return p.sph.continuity == Continuity::printed && !granular::bears_tension(p.law);
+  return !granular::bears_tension(p.law);
 }
 
 double density_relaxation(const Parameters& p) {
   const bool flows = p.law.is<granular::CriticalState>() || !granular::bears_tension(p.law);
-  return p.sph.continuity == Continuity::printed && flows ? p.sph.density_relaxation : 0;
+  return flows ? p.sph.density_relaxation : 0;
 }
 
 bool draws_by_lasting_rate(const Parameters& p) {

@@ -62,16 +62,11 @@ struct Parameters {
   struct Sph {
     Smoothing smoothing = Smoothing::local;
     double smoothing_ratio = 1;
-    Continuity continuity = Continuity::printed;
     sph::StressForm stress_form = sph::StressForm::balanced;
     double viscosity_alpha = 0.1;  // Setup::default_viscosity where a case leaves it out
-    double viscosity_beta = 0;
-    ViscositySpeed viscosity_speed = ViscositySpeed::largest;
     double density_relaxation = 1;
     double stress_regularisation = 0;
     double artificial_stress = 1;
-    double density_diffusion = 0;
-    double hourglass_damping = 0;
   } sph;
   struct Walls {
     Friction friction = Friction::coulomb;
@@ -185,16 +180,9 @@ void for_each_parameter(Visit&& visit, P& p) {
       Parameter{"sph.smoothing_ratio", dimension::none, between(1, 1.5),
                 "smoothing length in units of (m/rho_b)^(1/3), the paper's: a wider kernel sums over more neighbours"},
       p.sph.smoothing_ratio);
-  visit(Parameter{"sph.continuity",
-                  {},
-                  {},
-                  "rate of the density: Eq. 16 as printed, consistent with the kernel sum, or -rho_b times the trace "
-                  "of the corrected velocity gradient"},
-        p.sph.continuity);
-  auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
   auto flowing = only_if({"law.name", "is " + value_text(p.law.name), "of grains that flow",
                           p.law.template is<granular::CriticalState>() || !granular::bears_tension(p.law)},
-                         as_sum);
+                         visit);
   flowing(Parameter{"sph.density_relaxation", dimension::none, at_least(0),
                     "share of the difference between the kernel's sum and the density that a shear strain of "
                     "1 takes back, of grains that stick together only where the sum is more; 0, as printed: both drift "
@@ -210,14 +198,6 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "few spacings above the head that they came with; left out: 0.1, or less, down to 0.01, so that it "
                   "takes 1.7 % of the discharge through an outlet"},
         p.sph.viscosity_alpha);
-  visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
-        p.sph.viscosity_beta);
-  visit(Parameter{"sph.viscosity_speed",
-                  {},
-                  {},
-                  "speed of sound in the linear part of that viscosity: the law's largest, or the local one, which is "
-                  "none where grains bear no pressure"},
-        p.sph.viscosity_speed);
   auto of_critical_state = only_if(
       {"law.name", "is " + value_text(p.law.name), "critical-state", p.law.template is<granular::CriticalState>()},
       visit);
@@ -232,14 +212,6 @@ void for_each_parameter(Visit&& visit, P& p) {
                         "epsilon of springs between particles under tension, which would pair up: the tensile "
                         "instability; 0: none"},
               p.sph.artificial_stress);
-  visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
-                  "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
-                  "particle to particle; 0.1 in delta-SPH; 0: none"},
-        p.sph.density_diffusion);
-  visit(Parameter{"sph.hourglass_damping", dimension::none, between(0, 1),
-                  "coefficient of a viscosity against what of a pair's approach the velocity gradients do not explain, "
-                  "between grains that bear pressure; 0: none"},
-        p.sph.hourglass_damping);
 
   visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
         p.walls.friction);

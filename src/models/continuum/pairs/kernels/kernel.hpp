@@ -23,20 +23,6 @@ struct alignas(64) StressRecord {
   double tension;             ///< T/rho^2 of the artificial stress, m^5/(kg s^2)
 };
 
-/// What the stabilisers (physics/sph/pair_terms.hpp) know of a particle besides: where forces are damped,
-struct alignas(64) DampingRecord {
-  double deformation_rate[6];  ///< D: xx yy zz xy yz zx, 1/s
-  double sound_speed;          ///< of the viscosity, m/s
-  double loaded;               ///< 1: it bears pressure, else 0
-};
-
-/// and where densities diffuse.
-struct alignas(64) DiffusionRecord {
-  double density_gradient[3];  ///< kg/m^4
-  double dense;                ///< 1: its density diffuses, else 0
-  double unused[4];
-};
-
 /// The same in single precision. Places are whole numbers of quanta: what two of them differ by is as good as a float,
 /// wherever they are. The numbers wrap around far beyond the reach of a particle.
 struct alignas(32) SingleMotionRecord {
@@ -49,15 +35,6 @@ struct alignas(32) SingleStressRecord {
   float specific_stress[6];
   float half_density;
   float tension;
-};
-struct alignas(32) SingleDampingRecord {
-  float deformation_rate[6];
-  float sound_speed, loaded;
-};
-struct alignas(32) SingleDiffusionRecord {
-  float density_gradient[3];
-  float dense;
-  float unused[4];
 };
 
 /// Neighbours of a particle that load a wall, of those `block` in its list that begin at a multiple of it: the
@@ -74,20 +51,16 @@ struct WallLoad {
 
 /// What all pairs have in common.
 struct PairConstants {
-  double mass;                             ///< of a particle, where all have the same, kg
-  double sound_speed;                      ///< largest, of the viscosity, m/s
-  double viscosity_alpha, viscosity_beta;  ///< Monaghan's
-  double density_diffusion = 0;            ///< 2 delta c, m/s
-  double hourglass_damping = 0;            ///< zeta c, m/s
-  double artificial_stress = 0;            ///< epsilon
-  double nearness = 0;                     ///< one over the kernel's shape at the spacing
+  double mass;                   ///< of a particle, where all have the same, kg
+  double sound_speed;            ///< of the viscosity, m/s
+  double viscosity_alpha;        ///< Monaghan's
+  double artificial_stress = 0;  ///< epsilon
+  double nearness = 0;           ///< one over the kernel's shape at the spacing
 };
 
 struct SingleRecords {
   const SingleMotionRecord* motion = nullptr;
   const SingleStressRecord* stress = nullptr;
-  const SingleDampingRecord* damping = nullptr;
-  const SingleDiffusionRecord* diffusion = nullptr;
   double quantum = 0;  ///< m, a power of two
 };
 
@@ -96,9 +69,7 @@ struct SingleRecords {
 struct Records {
   const MotionRecord* motion;
   const StressRecord* stress;
-  const DampingRecord* damping;      ///< where stabilisers act on forces
-  const DiffusionRecord* diffusion;  ///< where they act on densities
-  SingleRecords single;              ///< of the sums in single precision
+  SingleRecords single;  ///< of the sums in single precision
 };
 
 /// Of the neighbours of a particle those up to `end` that are particles (image -1) or seen in one image.
@@ -130,13 +101,12 @@ struct alignas(64) StressSums {
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
 struct alignas(64) ParticleSums {
-  double moment[6];            ///< GradientSums::moment: xx yy zz xy yz zx
-  double velocity[9];          ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
-  double density_rate;         ///< Eq. 16, kg/(m^3 s)
-  double density_gradient[8];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared; 3 of them
-  double stress[8];            ///< sum of W tau_j/rho_j^2, m^2/(kg s^2): xx yy zz xy yz zx, and two unused
-  double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
-  double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
+  double moment[6];              ///< GradientSums::moment: xx yy zz xy yz zx
+  double velocity[9];            ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
+  double density_rate;           ///< Eq. 16, kg/(m^3 s)
+  double stress[8];              ///< sum of W tau_j/rho_j^2, m^2/(kg s^2): xx yy zz xy yz zx, and two unused
+  double acceleration[3];        ///< Eq. 17 without gravity, m/s^2
+  double kernel_density;         ///< sum of m W without the particle itself, kg/m^3
   double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
   StressSums stress_gradient;    ///< where walls ask for them
 
@@ -147,9 +117,6 @@ enum class PairTerms { all, gradients, forces };
 
 /// Precision of the arithmetic of pairs.
 enum class PairPrecision { in_double, in_single };
-
-/// Whether stabilisers act; before densities can diffuse, their gradients are measured.
-enum class Stabilisers { none, prepared, acting };
 
 /// Whether all particles have the mass of PairConstants, or each that of its volume and density.
 enum class Masses { equal, unequal };
@@ -171,10 +138,9 @@ using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const
 using VelocityGradients = void(const ParticleSums* sums, double (*gradient)[ParticleSums::together]);
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
-/// \param stabilisers prepared: of `gradients` only \param masses unequal: all sums read stresses, and none is asked
-/// for the stress around
-using ChooseSumNeighbours = SumNeighbours(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                          StressAround stress_around, StressGradient stress_gradient, Masses masses);
+/// \param masses unequal: all sums read stresses, and none is asked for the stress around
+using ChooseSumNeighbours = SumNeighbours(PairTerms terms, PairPrecision precision, StressAround stress_around,
+                                          StressGradient stress_gradient, Masses masses);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

@@ -159,21 +159,18 @@ TALUS_INLINE auto mass_of(const PairConstants& constants, const Number& volume, 
     return 2.0 * volume * stress[6];
 }
 
-template <class Real, bool gradients, bool forces, Stabilisers stabilisers,
-          StressAround stress_around = StressAround::unasked, StressGradient stress_gradient = StressGradient::unasked,
-          Masses masses = Masses::equal>
+template <class Real, bool gradients, bool forces, StressAround stress_around = StressAround::unasked,
+          StressGradient stress_gradient = StressGradient::unasked, Masses masses = Masses::equal>
 void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, ParticleSums& sums) {
   using Number = SimdVector<Real>;
   const auto records = records_of(all_records, Real{});
   const auto* motion = records.motion + self;
   const auto* stresses = records.stress + self;
-  const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   const Number zero = 0.0;
   sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},
                                      {zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   Number density_rate = zero, kernel_density = zero;
-  SimdVector3<Real> density_gradient{zero, zero, zero};
   const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
   const PairAccelerations<Real> pairs(neighbours);
   SimdVector3<Real> acceleration{zero, zero, zero};
@@ -190,26 +187,12 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     const auto& loaded = *stresses;
     const auto& [d, du, volume, h, square, q, inverse_h, slope] = pair;
     Number stress[8];
-    if constexpr (forces || slopes || stabilisers != Stabilisers::none || masses == Masses::unequal)
+    if constexpr (forces || slopes || masses == Masses::unequal)
       load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stress + record[lane]); }, stress);
     const auto mass = mass_of<masses>(constants, volume, stress);
     if constexpr (gradients) {
       gradient.add(volume, slope, d, du);
       density_rate = density_rate + sph::density_rate(mass, slope, d, du);
-    }
-    if constexpr (stabilisers == Stabilisers::prepared) {
-      const Number weight = -2.0 * volume * slope * (stress[6] - Number(loaded.half_density));
-      density_gradient = {density_gradient.x + weight * d.x, density_gradient.y + weight * d.y,
-                          density_gradient.z + weight * d.z};
-    }
-    if constexpr (gradients && stabilisers == Stabilisers::acting) {
-      Number its[8];
-      load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.diffusion + record[lane]); }, its);
-      const Real* g = records.diffusion[self].density_gradient;
-      const SimdVector3<Real> both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
-      density_rate = density_rate + records.diffusion[self].dense * its[3] *
-                                        sph::density_diffusion(constants.density_diffusion, h, volume, slope, d,
-                                                               2.0 * (stress[6] - Number(loaded.half_density)), both);
     }
     if constexpr (forces) {
       const Number approach = multiply_add(du.x, d.x, multiply_add(du.y, d.y, du.z * d.z));
@@ -218,22 +201,8 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       if constexpr (stress_around == StressAround::asked)
         TALUS_UNROLL for (int c = 0; c < 6; ++c) around[c] = multiply_add(kernel, stress[c], around[c]);
       const Number mean_density = Number(loaded.half_density) + stress[6];
-      Number viscosity;
-      if constexpr (stabilisers == Stabilisers::acting) {
-        Number its[8];
-        load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.damping + record[lane]); }, its);
-        const auto& mine = records.damping[self];
-        const Real* r = mine.deformation_rate;
-        const SymmetricTensor3<Number> both{its[0] + Number(r[0]), its[1] + Number(r[1]), its[2] + Number(r[2]),
-                                            its[3] + Number(r[3]), its[4] + Number(r[4]), its[5] + Number(r[5])};
-        viscosity =
-            sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[6]), mean_density) +
-            mine.loaded * its[7] *
-                sph::hourglass_damping(constants.hourglass_damping, sph::unexplained_approach(approach, d, both),
-                                       square, h, mean_density);
-      } else {
-        viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed, mean_density);
-      }
+      Number viscosity =
+          sph::viscosity(constants.viscosity_alpha, approach, square, h, constants.sound_speed, mean_density);
       if (constants.artificial_stress > 0)
         viscosity = viscosity + sph::artificial_stress(constants.artificial_stress, Number(loaded.tension) + stress[7],
                                                        constants.nearness * sph::cubic_spline_shape_of(q));
@@ -246,7 +215,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     }
     if constexpr (slopes) stress_slopes.add(d, -1.0 * volume * slope, stress, loaded.specific_stress);
   };
-  if constexpr (gradients && !forces && stabilisers == Stabilisers::none) {
+  if constexpr (gradients && !forces) {
     // The next register's geometry, a long chain of operations, has begun while this one's is summed.
     if (end > 0) {
       PairGeometry<Real> next = geometry(0);
@@ -266,7 +235,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   if constexpr (slopes)
     store_sums(stress_slopes.value, sums.stress_gradient.moment);
   else if constexpr (stress_gradient == StressGradient::asked)
-    sum_neighbours<double, false, false, Stabilisers::none, StressAround::unasked, StressGradient::asked, masses>(
+    sum_neighbours<double, false, false, StressAround::unasked, StressGradient::asked, masses>(
         all_records, self, neighbours, constants, sums);
   if constexpr (gradients) {
     const SymmetricTensor3<Number>& m = gradient.moment;
@@ -275,58 +244,37 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
                             v.xz, v.yx, v.yy, v.yz, v.zx, v.zy, v.zz, density_rate};
     store_sums(all, sums.moment);
   }
-  if constexpr (stabilisers == Stabilisers::prepared) {
-    const Number all[8] = {density_gradient.x, density_gradient.y, density_gradient.z, zero, zero, zero, zero, zero};
-    alignas(64) double summed[16];
-    store_sums(all, summed);
-    for (int axis = 0; axis < 3; ++axis) sums.density_gradient[axis] = summed[axis];
-  }
-}
-
-template <class Real, Masses masses, Stabilisers stabilisers, StressAround stress_around,
-          StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(PairTerms terms) {
-  constexpr StressAround unasked = StressAround::unasked;
-  return terms == PairTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient, masses>
-         : terms == PairTerms::gradients
-             ? sum_neighbours<Real, true, false, stabilisers, unasked, StressGradient::unasked, masses>
-             : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient, masses>;
 }
 
 template <class Real, Masses masses, StressAround stress_around, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers) {
-  return stabilisers == Stabilisers::none
-             ? choose<Real, masses, Stabilisers::none, stress_around, stress_gradient>(terms)
-         : stabilisers == Stabilisers::acting
-             ? choose<Real, masses, Stabilisers::acting, stress_around, stress_gradient>(terms)
-             : sum_neighbours<Real, true, false, Stabilisers::prepared, StressAround::unasked, StressGradient::unasked,
-                              masses>;
+TALUS_INLINE SumNeighbours choose(PairTerms terms) {
+  constexpr StressAround unasked = StressAround::unasked;
+  return terms == PairTerms::all         ? sum_neighbours<Real, true, true, stress_around, stress_gradient, masses>
+         : terms == PairTerms::gradients ? sum_neighbours<Real, true, false, unasked, StressGradient::unasked, masses>
+                                         : sum_neighbours<Real, false, true, stress_around, stress_gradient, masses>;
 }
 
 template <class Real, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around, Masses masses) {
-  return masses == Masses::unequal
-             ? choose<Real, Masses::unequal, StressAround::unasked, stress_gradient>(terms, stabilisers)
+TALUS_INLINE SumNeighbours choose(PairTerms terms, StressAround stress_around, Masses masses) {
+  return masses == Masses::unequal ? choose<Real, Masses::unequal, StressAround::unasked, stress_gradient>(terms)
          : stress_around == StressAround::asked
-             ? choose<Real, Masses::equal, StressAround::asked, stress_gradient>(terms, stabilisers)
-             : choose<Real, Masses::equal, StressAround::unasked, stress_gradient>(terms, stabilisers);
+             ? choose<Real, Masses::equal, StressAround::asked, stress_gradient>(terms)
+             : choose<Real, Masses::equal, StressAround::unasked, stress_gradient>(terms);
 }
 
 template <class Real>
-TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around,
-                                  StressGradient stress_gradient, Masses masses) {
-  return stress_gradient == StressGradient::asked
-             ? choose<Real, StressGradient::asked>(terms, stabilisers, stress_around, masses)
-             : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around, masses);
+TALUS_INLINE SumNeighbours choose(PairTerms terms, StressAround stress_around, StressGradient stress_gradient,
+                                  Masses masses) {
+  return stress_gradient == StressGradient::asked ? choose<Real, StressGradient::asked>(terms, stress_around, masses)
+                                                  : choose<Real, StressGradient::unasked>(terms, stress_around, masses);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
 
-SumNeighbours TALUS_FOR_SET(sum_neighbours)(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                            StressAround stress_around, StressGradient stress_gradient, Masses masses) {
-  return precision == PairPrecision::in_single
-             ? choose<float>(terms, stabilisers, stress_around, stress_gradient, masses)
-             : choose<double>(terms, stabilisers, stress_around, stress_gradient, masses);
+SumNeighbours TALUS_FOR_SET(sum_neighbours)(PairTerms terms, PairPrecision precision, StressAround stress_around,
+                                            StressGradient stress_gradient, Masses masses) {
+  return precision == PairPrecision::in_single ? choose<float>(terms, stress_around, stress_gradient, masses)
+                                               : choose<double>(terms, stress_around, stress_gradient, masses);
 }
 
 void TALUS_FOR_SET(velocity_gradients)(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {
