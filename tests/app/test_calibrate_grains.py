@@ -193,7 +193,8 @@ class FromBeads(ProgramTest):
         np.testing.assert_allclose(law["critical_packing"]["range"], [0.46, 0.554])
         np.testing.assert_allclose(ends, [stress / 5, stress / 0.3], 1e-3)
         self.assertAlmostEqual(law["static_friction"]["value"], 0.45, delta=0.02)  # as without
-        self.assertIn("without cohesion", law["dilatancy"]["source"])
+        for source in (law["dilatancy"]["source"], material["walls"]["acrylic"]["source"]):
+            self.assertIn("without cohesion", source)
         (self.folder / "case.toml").write_text(CASE)
         self.talus("run", "case.toml", "--out", "run")
         manifest = (self.folder / "run" / "manifest.json").read_text()
@@ -287,12 +288,13 @@ friction = 0.3
                       r"beads.toml:8: surface_energy: .*allowed: the work of adhesion of two beads, from 0 on J/m2",
                       r"beads.toml:9: bond_number: -1 will not do", r"beads.toml:9: bond_number: is given besides surface_energy",
                       r"beads.toml:1: rolling_friction: missing", r"beads.toml:1: density: missing",
-                      r"beads.toml:11: walls.stel: .*'steel'", r"--diameter: takes --shear-cell or --repose", r"--out my-grains.txt", "13 problems"):
+                      r"beads.toml:11: walls.stel: .*'steel'", r"--diameter: takes --shear-cell or --repose", r"--out my-grains.txt",
+                      "13 problems"):
             self.assertTrue(re.search(words, said), f"{words}\n{said}")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["beads.toml", "bin", "case.toml"])
-        for line, words in (("bond_number = 300", r"bond_number: 300 will not do; allowed: a number from 0 to 249: "),
+        for line, words in (("bond_number = 300", r"bond_number: 300 will not do: overlaps .*; allowed: a number from 0 to 249: "),
                             ("bond_number = 'large'", r"bond_number: is of another type"),
-                            ('surface_energy = "5 J/m2"', r'surface_energy: "5 J/m2" will not do; .* from 0 to 4.24 J/m2'),
+                            ('surface_energy = "5 J/m2"', r'surface_energy: "5 J/m2" will not do: overlaps .* from 0 to 4.24 J/m2'),
                             ('adhesion = "1 J/m2"', r"adhesion: is no key of beads.*'surface_energy'")):
             self.stick(line)
             self.assertRegex(self.calibrate("--out", "my-grains.toml", status=2), words)

@@ -92,11 +92,15 @@ def _up_to(most):
     return f"from 0 to {most:.3g}" if most < math.inf else "from 0 on"
 
 
+def _why_not(text, value, most):
+    return f"{text} will not do" + (": overlaps would count under every load" if value > most else "")
+
+
 def _bond_number(reader, beads, line, most):
     allowed, before = f"a number {_up_to(most)}: the force that parts two beads over their weight", len(reader.problems)
     value = reader.get(beads, line, "bond_number", (int, float), allowed)
     if len(reader.problems) == before and not 0 <= value <= most:
-        reader.fault(line, "bond_number", f"{value:g} will not do", allowed=allowed)
+        reader.fault(line, "bond_number", _why_not(f"{value:g}", value, most), allowed=allowed)
     return float(value)
 
 
@@ -106,9 +110,10 @@ def _energy(reader, beads, line, most):
     if len(reader.problems) > before:
         return 0.0
     [said] = ask("quantities", texts=[text])
-    if said.get("unit") == "N/m" and 0 <= said["si"] <= most:
-        return said["si"]
-    reader.fault(line, "surface_energy", said.get("why") or f'"{text}" will not do', allowed=allowed)
+    value = said["si"] if said.get("unit") == "N/m" else -1.0
+    if 0 <= value <= most:
+        return value
+    reader.fault(line, "surface_energy", said.get("why") or _why_not(f'"{text}"', value, most), allowed=allowed)
     return 0.0
 
 

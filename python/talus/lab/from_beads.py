@@ -193,32 +193,34 @@ def material_of(name, beads, plan, computed):
     material.add("law.name", '"critical-state"', "Talus")
     for key, estimate in found.items():
         more = {"test": SHEAR_PLANE} if key in ("static_friction", "dynamic_friction") else {}
-        more |= {"unit": "Pa"} if key == "tensile_strength" else {}
+        unit = "Pa" if key == "tensile_strength" else ""
         value, interval = estimate, None
         if isinstance(estimate, Estimate):
             value, interval = max(estimate.value, 0.0), (max(estimate.low, 0.0), max(estimate.high, 0.0))
-        material.add(f"law.critical-state.{key}", value, f"{sources[key]}; LAMMPS", interval=interval, **more)
-        say(f"{key} = {value:.4g}" + (f" ({interval[0]:.4g} to {interval[1]:.4g})" if interval else ""))
+        by = "" if key == "cohesion_strain" else "; LAMMPS"
+        material.add(f"law.critical-state.{key}", value, sources[key] + by, unit, interval, **more)
+        say(f"{key} = {value:.4g}" + (f" ({interval[0]:.4g} to {interval[1]:.4g})" if interval else "") + f" {unit}".rstrip())
     material.add("law.critical-state.ageing_adds", "false", "beads that have rested have the peak of their packing, no more "
                  "(validation/bead-shear)")
-    unit = beads.stiffness / beads.diameter
-    stiff = "" if math.isnan(bulk) else f"; beads have a bulk modulus of {bulk * unit:.3g} Pa, cases that of their bed"
-    low, high, why = 0.0, fits.SOFT * unit, f"{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"
+    hard = beads.stiffness / beads.diameter
+    stiff = "" if math.isnan(bulk) else f"; beads have a bulk modulus of {bulk * hard:.3g} Pa, cases that of their bed"
+    low, high, why = 0.0, fits.SOFT * hard, f"{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"
     if beads.attraction:
         low, loose = (beads.attraction / beads.diameter**2 / bond for bond in (plan.bonds[-1], plan.bonds[0]))
         if loose < high:
-            high, why = loose, "attractions that were computed"
+            high = loose
+            why = f"loads under which the attraction is {plan.bonds[-1]:g} to {plan.bonds[0]:g} times load times diameter squared"
         else:
-            why = f"from the largest attraction that was computed to {why}"
+            why = f"from an attraction of {plan.bonds[-1]:g} times load times diameter squared to {why}"
     material.lines += ["", "[pressure]", f'range = ["{low:.4g} Pa", "{high:.4g} Pa"]', f'source = "{why}"']
     for wall, frictions in walls.items():
         known = [one for one in frictions if np.isfinite(one)]
         if not known:
             say(f"walls.{wall}: left out, for no layer slid along it and stopped")
             continue
-        estimate = fits.mean_estimate(known, WALL_SCATTER * np.mean(known))
+        estimate, by = fits.mean_estimate(known, WALL_SCATTER * np.mean(known)), "; without cohesion" if beads.attraction else ""
         material.add(f"walls.{wall}", estimate.value, f"seeds of layers that slide on a flat wall of friction {beads.walls[wall]:g}: "
-                     f"{len(known)}; LAMMPS", interval=(max(estimate.low, 0.0), estimate.high))
+                     f"{len(known)}{by}; LAMMPS", interval=(max(estimate.low, 0.0), estimate.high))
         say(f"walls.{wall} = {estimate.value:.4g} ({estimate.low:.4g} to {estimate.high:.4g})")
     return material
 
