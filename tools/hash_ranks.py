@@ -131,7 +131,7 @@ def main():
     wanted = tuple(given.cases.split(",")) if given.cases else ("",)
     differs = False
     with tempfile.TemporaryDirectory() as scratch:
-        for name, (case, settings) in CASES.items():
+        for which, (name, (case, settings)) in enumerate(CASES.items()):
             if not name.startswith(wanted):
                 continue
             folder = pathlib.Path(scratch) / "run"
@@ -139,7 +139,7 @@ def main():
             expected, changed, parted = None, 0, False
             line = f"{name:<50}"
             for number, (ranks, threads) in enumerate(runs):
-                of_run = folder.with_name(f"{case}-{len(name)}-{number}")
+                of_run = folder.with_name(f"{case}-{which}-{number}")
                 found = hash_of_run(ranks, given.build.resolve(), of_run, case, settings, threads)
                 expected = expected or found
                 line += f" {found}" if ranks is None else f"  {ranks}x{threads} {'same' if found == expected else found}"

@@ -76,7 +76,7 @@ TEST(PairPrecision, PlacesAreAsGoodFarFromTheOrigin) {
 }
 
 TEST(PairPrecision, InSinglePrecisionForcesCancelToTheRoundOffOfFloats) {
-  DisturbedBed e(PairPrecision::in_single, InstructionSet::automatic, false);
+  DisturbedBed e(PairPrecision::in_single, InstructionSet::automatic);
   e.evaluate();
   const Evaluation::Accelerations sums = e.accelerations();
   EXPECT_LT(norm(sums.total - sums.by_walls), 1e-7 * sums.size);
