@@ -28,9 +28,6 @@ struct PartOfPoints {
   double reach = 0, margin = 0;   ///< the largest of all parts, m; 0: that of these points
 };
 
-/// Of these points those with lists, or the copies.
-enum class Held { owned, copied };
-
 class Neighbourhood {
  public:
   /// \param domain, vessel outlive it; \param vessel particles hidden behind it when the lists are built are not listed
@@ -58,8 +55,7 @@ class Neighbourhood {
 
   double reach() const { return reach_; }  ///< of the lists: no pair in them was farther apart, m
   std::size_t particles() const { return first_ghost_.size(); }
-  bool has_copies() const { return !is_copy_.empty(); }
-  bool is_copy(std::size_t i) const { return has_copies() && is_copy_[i]; }
+  bool is_copy(std::size_t i) const { return !is_copy_.empty() && is_copy_[i]; }
   std::span<const Ghost> ghosts() const { return ghosts_; }
   std::span<const Image> images() const { return images_; }
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }

@@ -5,32 +5,25 @@
 
 namespace talus {
 
-void Halo::begin(std::span<const Column> columns) {
+void Halo::refresh(std::span<const Column> columns) {
   if (!plan_) return;
-  columns_.assign(columns.begin(), columns.end());
-  std::size_t words = 0, first = 0;
-  for (const Column& column : columns_) words += column.words;
+  std::size_t words = 0;
+  for (const Column& column : columns) words += column.words;
   going_.resize(words * sent_.size());
   coming_.resize(words * received_.size());
-  for (const Column& column : columns_) {
+  std::size_t first = 0;
+  for (const Column& column : columns) {
     for (std::size_t n = 0; n < sent_.size(); ++n)
       std::memcpy(going_.data() + words * n + first, column.data + 8 * column.words * sent_[n], 8 * column.words);
     first += column.words;
   }
-  plan_->begin(going_.data(), words, coming_.data());
-}
-
-void Halo::end() {
-  if (!plan_) return;
-  plan_->end();
-  const std::size_t words = received_.empty() ? 0 : coming_.size() / received_.size();
-  std::size_t first = 0;
-  for (const Column& column : columns_) {
+  plan_->exchange(going_.data(), words, coming_.data());
+  first = 0;
+  for (const Column& column : columns) {
     for (std::size_t n = 0; n < received_.size(); ++n)
       std::memcpy(column.data + 8 * column.words * received_[n], coming_.data() + words * n + first, 8 * column.words);
     first += column.words;
   }
-  columns_.clear();
 }
 
 }  // namespace talus

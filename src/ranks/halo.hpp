@@ -31,10 +31,7 @@ class Halo {
   }
 
   /// Gives the copies the values of their owners, in one message. Together, with the same columns.
-  void refresh(std::span<const Column> columns) { begin(columns), end(); }
-  /// The same in two parts: between them the columns stay where they are, and entries of elements keep their values.
-  void begin(std::span<const Column> columns);
-  void end();
+  void refresh(std::span<const Column> columns);
 
   std::size_t sent() const { return sent_.size(); }
   std::size_t received() const { return received_.size(); }  ///< how many copies there are
@@ -42,7 +39,6 @@ class Halo {
  private:
   std::unique_ptr<Plan> plan_;
   std::vector<std::uint32_t> sent_, received_;
-  std::vector<Column> columns_;                // that are on their way
   std::vector<std::uint64_t> going_, coming_;  // kept for their memory
 };
 

@@ -35,12 +35,9 @@ class Plan {
   std::size_t sent() const { return sent_; }          ///< items, those to itself among them
   std::size_t received() const { return received_; }  ///< items
 
-  /// Together, and end() before the next one. Both memories are left alone between the two.
-  /// \param items those to process 0 first, then those to 1, ...; each of so many words of 8 bytes
+  /// Together. \param items those to process 0 first, then those to 1, ...; each of so many words of 8 bytes
   /// \param received those from process 0 first, in the order in which it has them, then those from 1, ...
-  virtual void begin(const void* items, std::size_t words, void* received) = 0;
-  virtual void end() = 0;
-  void exchange(const void* items, std::size_t words, void* received) { begin(items, words, received), end(); }
+  virtual void exchange(const void* items, std::size_t words, void* received) = 0;
 
   /// The same with a value for each item.
   template <class T>

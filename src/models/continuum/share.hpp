@@ -76,17 +76,11 @@ class Share {
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
 
-  /// Gives columns the halo's values, in one message; in two parts: what is between them does not wait for it.
-  void refresh(std::span<const Halo::Column> columns) { begin_refresh(columns), end_refresh(); }
-  void begin_refresh(std::span<const Halo::Column> columns) {
+  /// Gives columns the halo's values, in one message.
+  void refresh(std::span<const Halo::Column> columns) {
     if (is_all()) return;
     const Stopwatch watch(time_.messages);
-    halo_.begin(columns);
-  }
-  void end_refresh() {
-    if (is_all()) return;
-    const Stopwatch watch(time_.messages);
-    halo_.end();
+    halo_.refresh(columns);
   }
   void vote(Votes& votes) const {
     if (is_all()) return;

@@ -165,11 +165,10 @@ void Step::half() const {
 void Step::gradients(const SummedColumns& columns, PairTerms terms) const {
   // What else gradients alone read is as the forces met it.
   if (terms == PairTerms::gradients)
-    w.share.begin_refresh(
-        std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
+    w.share.refresh(std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
   else
-    begin_refresh(w, columns);
-  w.pairs(team, columns.view(), terms, w.rates, [&] { w.share.end_refresh(); });
+    refresh_halo(w, columns);
+  w.pairs(team, columns.view(), terms, w.rates);
 }
 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.

@@ -96,24 +96,24 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   build_lists(team, p, s, w);
 }
 
-void begin_refresh(Workspace& w, const SummedColumns& c) {
+void refresh_halo(Workspace& w, const SummedColumns& c) {
   if (w.share.is_all()) return;
   std::vector<Halo::Column> columns{Halo::column(std::span(c.position)), Halo::column(std::span(c.velocity)),
                                     Halo::column(std::span(c.density)), Halo::column(std::span(c.smoothing_length))};
   for (auto* const tensor : {&c.material.stress, &c.material.collisional})
     for (std::vector<double>& component : *tensor)
       if (!component.empty()) columns.push_back(Halo::column(std::span(component)));
-  w.share.begin_refresh(columns);
+  w.share.refresh(columns);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.mass_ratio};
-  begin_refresh(w, columns);
+  refresh_halo(w, columns);
   // The forces at the moment of the opening are still those of the settled bed, in a resumed run too.
   const bool flows = s.gate_time >= 0 && s.time > s.gate_time;
   w.pairs.set_viscosity(flows ? p.sph.viscosity_alpha : p.settle.viscosity_alpha.value_or(p.sph.viscosity_alpha));
   w.pairs(team, columns.view(), p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces,
-          w.rates, [&] { w.share.end_refresh(); });
+          w.rates);
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {

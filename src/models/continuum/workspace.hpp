@@ -88,8 +88,8 @@ struct SummedColumns {
   ParticleView view() const { return {position, velocity, density, smoothing_length, material, {mass_ratio}}; }
 };
 
-/// Gives these columns the halo's values, in one message, until Share::end_refresh.
-void begin_refresh(Workspace& workspace, const SummedColumns& columns);
+/// Gives these columns the halo's values, in one message.
+void refresh_halo(Workspace& workspace, const SummedColumns& columns);
 
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

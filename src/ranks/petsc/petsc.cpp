@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -49,23 +48,16 @@ class StarForest final : public Plan {
  public:
   StarForest(PetscSF forest, std::size_t sent, std::size_t received) : Plan(sent, received), forest_(forest) {}
   ~StarForest() override { PetscSFDestroy(&forest_); }
-  void begin(const void* items, std::size_t words, void* received) override {
+  using Plan::exchange;
+  void exchange(const void* items, std::size_t words, void* received) override {
     if (words == 0) return;
-    item_.emplace(words);
-    items_ = items, received_ = received;
-    check(PetscSFBcastBegin(forest_, item_->type(), items, received, MPI_REPLACE), "send");
-  }
-  void end() override {
-    if (!item_) return;
-    check(PetscSFBcastEnd(forest_, item_->type(), items_, received_, MPI_REPLACE), "receive");
-    item_.reset();
+    const Item item(words);
+    check(PetscSFBcastBegin(forest_, item.type(), items, received, MPI_REPLACE), "send");
+    check(PetscSFBcastEnd(forest_, item.type(), items, received, MPI_REPLACE), "receive");
   }
 
  private:
   PetscSF forest_;
-  std::optional<Item> item_;  // on its way
-  const void* items_ = nullptr;
-  void* received_ = nullptr;
 };
 
 /// Who sends how many items to this process, and where they begin among those that it sends.

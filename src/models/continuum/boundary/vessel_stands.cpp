@@ -223,9 +223,6 @@ void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std
       first_stand_.push_back(first_stand_.back() + some.stands_of[n]);
     }
   }
-  for (auto& slots : slots_) slots.clear();
-  for (std::uint32_t slot = 0; slot < particles_.size(); ++slot)
-    slots_[neighbourhood.is_copy(particles_[slot]) ? 1 : 0].push_back(slot);
   clearance_.resize(particles_.size());
   for (std::size_t n = 0; n < particles_.size(); ++n)
     clearance_[n] = {position[particles_[n]], neighbourhood.distance_from_vessel(particles_[n]), 0, {}};

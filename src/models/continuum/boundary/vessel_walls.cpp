@@ -64,12 +64,10 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
   for (int n = 0; n <= 2 * steps_of_h; ++n) plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
 
-void VesselWalls::meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-                       Held held) {
+void VesselWalls::meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
   is_met_ = true;
-  const std::vector<std::uint32_t>& slots = slots_[static_cast<std::size_t>(held)];
-  for_each(team, slots.size(), [&](std::size_t n) {
-    const std::size_t slot = slots[n], i = particles_[slot];
+  for_each(team, particles_.size(), [&](std::size_t slot) {
+    const std::size_t i = particles_[slot];
     meet(slot, position[i], smoothing_length[i]);
   });
   for_each(team, images_.size(), [&](std::size_t n) {

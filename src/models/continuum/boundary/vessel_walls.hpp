@@ -88,9 +88,8 @@ class VesselWalls {
             std::span<const double> smoothing_length, std::span<const double> margin,
             std::span<const double> mass_ratio = {});
 
-  /// Takes the sums over those points, of the particles as they are now; open gates left out. \param held of which
-  void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-            Held held = Held::owned);
+  /// Takes the sums over those points, of the particles as they are now; open gates left out.
+  void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
   /// Whether it has since the lists were built.
   bool is_met() const { return is_met_; }
 
@@ -157,11 +156,10 @@ class VesselWalls {
   std::size_t sets_;                    // of points
   std::array<std::optional<CellGrid>, max_sets_of_points> grids_;
   std::array<std::uint32_t, max_sets_of_points> first_record_{};
-  std::vector<std::uint32_t> near_;                  // records near the particles, by stand, padded to whole registers
-  std::vector<std::int32_t> slot_;                   // of every particle, -1: no wall within reach
-  std::vector<std::uint32_t> particles_;             // by slot
-  std::array<std::vector<std::uint32_t>, 2> slots_;  // of those that are owned, and of copies
-  std::vector<std::uint32_t> first_stand_;           // by slot; one more at the end
+  std::vector<std::uint32_t> near_;         // records near the particles, by stand, padded to whole registers
+  std::vector<std::int32_t> slot_;          // of every particle, -1: no wall within reach
+  std::vector<std::uint32_t> particles_;    // by slot
+  std::vector<std::uint32_t> first_stand_;  // by slot; one more at the end
   std::vector<Stand> stands_;
   std::vector<WallSeat> seats_;  // of the stands, of images of particles that have some, and one of nobody
   struct ImageOfSeat {

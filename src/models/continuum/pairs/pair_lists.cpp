@@ -53,20 +53,9 @@ void PairLists::find_groups() {
     first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
   // Ghosts within the reach of a few that reach far are near nobody.
-  for (auto& ghosts_of : packed_ghosts_) ghosts_of.clear();
+  packed_ghosts_.clear();
   for (std::size_t g = 0; g < ghosts.size(); ++g)
-    if (is_listed[g])
-      packed_ghosts_[neighbourhood_.is_copy(ghosts[g].source) ? 1 : 0].push_back(static_cast<std::uint32_t>(g));
-}
-
-bool PairLists::is_inner(std::size_t i) const {
-  const auto ghosts = neighbourhood_.ghosts();
-  const std::size_t count = neighbourhood_.particles();
-  for (const std::uint32_t n : neighbourhood_.of(i)) {
-    if (n == count + ghosts.size()) break;  // padding
-    if (neighbourhood_.is_copy(n < count ? n : ghosts[n - count].source)) return false;
-  }
-  return true;
+    if (is_listed[g]) packed_ghosts_.push_back(static_cast<std::uint32_t>(g));
 }
 
 /// Which neighbours load which wall. \param walls a bit for each that the images of the groups load

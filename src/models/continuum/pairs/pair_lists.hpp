@@ -49,12 +49,8 @@ class PairLists {
   const std::array<Domain::Load, 3>& loads_of(std::int32_t image) const {
     return loads_of_images_[static_cast<std::size_t>(image)];
   }
-  /// The images that need records, of these particles: those in a list.
-  std::span<const std::uint32_t> packed_ghosts(Held sources) const {
-    return packed_ghosts_[static_cast<std::size_t>(sources)];
-  }
-  /// Whether no copy, nor an image of one, is in the list of a particle.
-  bool is_inner(std::size_t i) const;
+  /// The images that need records: those in a list.
+  std::span<const std::uint32_t> packed_ghosts() const { return packed_ghosts_; }
 
  private:
   void find_groups();
@@ -63,7 +59,7 @@ class PairLists {
 
   Neighbourhood neighbourhood_;
   std::vector<std::array<Domain::Load, 3>> loads_of_images_;
-  std::array<std::vector<std::uint32_t>, 2> packed_ghosts_;  // by Held
+  std::vector<std::uint32_t> packed_ghosts_;
   std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
   std::size_t max_neighbours_ = 1;          // list of neighbours
   std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles

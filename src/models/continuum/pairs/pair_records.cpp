@@ -102,29 +102,17 @@ double quantum_for(double reach) {
 }  // namespace
 
 /// Walls of a vessel read the records in double precision whatever that of the pairs.
-void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, Held held,
-                       bool stresses) {
-  const auto n = static_cast<std::size_t>(held);
+void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const bool in_single = options_.precision == PairPrecision::in_single;
-  if (in_single) pack_single(team, lists, particles, packed_[n], stresses);
-  if (!in_single || options_.always_double)
-    pack_double(team, lists, particles, in_single ? at_walls_[n] : packed_[n], stresses);
+  if (in_single) pack_single(team, lists, particles, stresses);
+  if (!in_single || options_.always_double) pack_double(team, lists, particles, stresses);
 }
 
-void PairRecords::find_packed(const PairLists& lists, std::span<const std::uint32_t> at_walls) {
+void PairRecords::find_read_by_walls(const PairLists& lists, std::span<const std::uint32_t> at_walls) {
+  if (options_.precision != PairPrecision::in_single) return;
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
   const std::size_t count = neighbourhood.particles();
-  const auto held = [&](std::size_t i) { return neighbourhood.is_copy(i) ? 1u : 0u; };
-  for (const Held which : {Held::owned, Held::copied}) {
-    Packed& packed = packed_[static_cast<std::size_t>(which)];
-    packed.clear();
-    packed.all = which == Held::owned && !neighbourhood.has_copies();
-    packed.ghosts.assign(lists.packed_ghosts(which).begin(), lists.packed_ghosts(which).end());
-    at_walls_[static_cast<std::size_t>(which)].clear();
-  }
-  for (std::uint32_t i = 0; i < count && neighbourhood.has_copies(); ++i) packed_[held(i)].particles.push_back(i);
-  if (options_.precision != PairPrecision::in_single) return;
   std::vector<char> is_read(count + ghosts.size(), 0);
   for (const std::uint32_t i : at_walls) {
     is_read[i] = 1;
@@ -134,26 +122,23 @@ void PairRecords::find_packed(const PairLists& lists, std::span<const std::uint3
       if (n >= count) is_read[ghosts[n - count].source] = 1;
     }
   }
-  for (std::uint32_t n = 0; n < is_read.size(); ++n) {
-    if (!is_read[n]) continue;
-    if (n < count)
-      at_walls_[held(n)].particles.push_back(n);
-    else
-      at_walls_[held(ghosts[n - count].source)].ghosts.push_back(n - static_cast<std::uint32_t>(count));
-  }
+  wall_particles_.clear(), wall_ghosts_.clear();
+  for (std::uint32_t n = 0; n < is_read.size(); ++n)
+    if (is_read[n])
+      n < count ? wall_particles_.push_back(n) : wall_ghosts_.push_back(n - static_cast<std::uint32_t>(count));
 }
 
 /// Records of images are made from those of their sources. What only forces read is packed for them only.
-void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
-                              const Packed& packed, bool stresses) {
+void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
-  const std::span<const std::uint32_t> packed_ghosts = packed.ghosts;
+  const bool are_all = options_.precision != PairPrecision::in_single;
+  const std::span<const std::uint32_t> packed_ghosts = are_all ? lists.packed_ghosts() : wall_ghosts_;
   make_room(motion_, count + ghosts.size() + 1);
   make_room(stress_, motion_.size());
-  for_each(team, packed.all ? count : packed.particles.size(), [&](std::size_t n) {
-    const std::size_t i = packed.all ? n : packed.particles[n];
+  for_each(team, are_all ? count : wall_particles_.size(), [&](std::size_t n) {
+    const std::size_t i = are_all ? n : wall_particles_[n];
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
     motion_[i] = {{x.x, x.y, x.z},
@@ -189,18 +174,16 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
   stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 
-void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
-                              const Packed& packed, bool stresses) {
+void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const Neighbourhood& neighbourhood = lists.neighbourhood();
   const auto ghosts = neighbourhood.ghosts();
-  const std::span<const std::uint32_t> packed_ghosts = packed.ghosts;
+  const auto packed_ghosts = lists.packed_ghosts();
   quantum_ = quantum_for(neighbourhood.reach());
   const double per_quantum = 1 / quantum_;
   make_room(single_motion_, count + ghosts.size() + 1);
   make_room(single_stress_, single_motion_.size());
-  for_each(team, packed.all ? count : packed.particles.size(), [&](std::size_t n) {
-    const std::size_t i = packed.all ? n : packed.particles[n];
+  for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     single_motion_[i] =
         single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),

@@ -3,7 +3,6 @@
 /// sources.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,31 +38,22 @@ class PairRecords {
   };
   explicit PairRecords(const Options& options) : options_(options) {}
 
-  /// Notes what is packed while these lists hold. \param at_walls numbers of the particles beside walls: what they have
-  /// in their lists is all that is packed in double precision besides single
-  void find_packed(const PairLists& lists, std::span<const std::uint32_t> at_walls);
+  /// Takes what lists the particles beside walls have: all that is packed in double precision besides single.
+  /// \param at_walls numbers of these particles
+  void find_read_by_walls(const PairLists& lists, std::span<const std::uint32_t> at_walls);
 
-  /// Motion of particles, and of their images. \param held of which particles \param stresses whether stresses, too:
-  /// only forces read them
-  void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, Held held, bool stresses);
+  /// Motion of particles and images. \param stresses whether stresses, too: only forces read them
+  void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
 
   Records view() const;
 
  private:
-  /// Particles and images, rising.
-  struct Packed {
-    bool all = false;  ///< particles, in place of those named
-    std::vector<std::uint32_t> particles, ghosts;
-    void clear() { all = false, particles.clear(), ghosts.clear(); }
-  };
-  void pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, const Packed& packed,
-                   bool stresses);
-  void pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, const Packed& packed,
-                   bool stresses);
+  void pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
+  void pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
 
   Options options_;
-  std::array<Packed, 2> packed_, at_walls_;  // by Held
-  double quantum_ = 0;                       // of the places in single precision, m
+  std::vector<std::uint32_t> wall_particles_, wall_ghosts_;  // of find_read_by_walls, rising
+  double quantum_ = 0;                                       // of the places in single precision, m
   // Particles, images, padding.
   std::vector<MotionRecord> motion_;
   std::vector<StressRecord> stress_;

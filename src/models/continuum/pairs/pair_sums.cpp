@@ -80,22 +80,16 @@ void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> positi
                                std::span<const double> mass_ratio, const PartOfPoints& part) {
   lists_.build(team, position, smoothing_length, margin, part);
   vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin, mass_ratio);
-  records_.find_packed(lists_, vessel_.particles());
-  for (auto& blocks : blocks_) blocks.clear();
-  constexpr std::size_t together = ParticleSums::together;
-  for (std::size_t first = 0; first < position.size(); first += together) {
-    bool inner = true;
-    for (std::size_t i = first; i < std::min(first + together, position.size()) && inner; ++i)
-      inner = !lists_.neighbourhood().has_copies() || (!lists_.neighbourhood().is_copy(i) && lists_.is_inner(i));
-    blocks_[inner ? 0 : 1].push_back(static_cast<std::uint32_t>(first / together));
-  }
+  records_.find_read_by_walls(lists_, vessel_.particles());
 }
 
 /// Records of particles and images, and the walls of the vessel as they are met.
-void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Held held, bool meets_walls) {
+void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms) {
   const bool stresses = terms != PairTerms::gradients || masses_ == Masses::unequal;
-  records_.pack(team, lists_, particles, held, stresses);
-  if (meets_walls) vessel_.meet(team, particles.position, particles.smoothing_length, held);
+  records_.pack(team, lists_, particles, stresses);
+  // In half a step particles hardly move: the gradients take the walls as the forces met them.
+  if (!vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met()))
+    vessel_.meet(team, particles.position, particles.smoothing_length);
 }
 
 void PairSums::make_room(PairTerms terms, std::size_t count, Rates& rates) const {
@@ -112,22 +106,10 @@ void PairSums::make_room(PairTerms terms, std::size_t count, Rates& rates) const
   rates.by_walls.value.resize(lists_.first_wall().back());
 }
 
-void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates,
-                          const std::function<void()>& arrive) {
-  make_room(terms, particles.position.size(), rates);
-  // In half a step particles hardly move: the gradients take the walls as the forces met them.
-  const bool meets_walls = !vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met());
-  pack(team, particles, terms, Held::owned, meets_walls);
-  sum(team, particles, terms, blocks_[0], rates);
-  if (arrive) arrive();
-  if (!lists_.neighbourhood().has_copies()) return;
-  pack(team, particles, terms, Held::copied, meets_walls);
-  sum(team, particles, terms, blocks_[1], rates);
-}
-
-void PairSums::sum(ThreadTeam& team, const ParticleView& particles, PairTerms terms,
-                   std::span<const std::uint32_t> blocks, Rates& rates) const {
+void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
+  make_room(terms, count, rates);
+  pack(team, particles, terms);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   const SumNeighbours sum_at_vessel = sum_at_vessel_[static_cast<std::size_t>(terms)];
   const Records all = records_.view();
@@ -169,9 +151,10 @@ void PairSums::sum(ThreadTeam& team, const ParticleView& particles, PairTerms te
                   rates.by_walls.value.data() + lists_.first_wall()[i]);
     }
   };
-  team.run((blocks.size() + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
-    for (std::size_t b = task * blocks_at_once; b < std::min(blocks.size(), (task + 1) * blocks_at_once); ++b)
-      compute(blocks[b] * together);
+  const std::size_t blocks = (count + together - 1) / together;
+  team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
+    for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
+      compute(b * together);
   });
 }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -52,15 +51,11 @@ class PairSums {
   PairSums(const PairSums&) = delete;
   PairSums& operator=(const PairSums&) = delete;
 
-  /// Packs the records, and computes the requested rates. \param arrive makes columns hold the halo's values, null:
-  /// they do; before it is called, particles without copies among their neighbours are summed
-  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates,
-                  const std::function<void()>& arrive = nullptr);
+  /// Packs the records, then computes the requested rates. \pre columns hold the halo's values too
+  void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates);
 
  private:
-  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Held held, bool meets_walls);
-  void sum(ThreadTeam& team, const ParticleView& particles, PairTerms terms, std::span<const std::uint32_t> blocks,
-           Rates& rates) const;
+  void pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms);
   void make_room(PairTerms terms, std::size_t count, Rates& rates) const;
   SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const ParticleSums& sums) const;
 
@@ -80,8 +75,6 @@ class PairSums {
   VesselWalls vessel_;
   WallSums walls_;
   PairRecords records_;
-  /// Blocks of ParticleSums::together particles: those with no copy among their neighbours, and the others.
-  std::array<std::vector<std::uint32_t>, 2> blocks_;
 };
 
 }  // namespace talus::continuum
