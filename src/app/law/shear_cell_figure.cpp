@@ -59,6 +59,10 @@ void draw_loci(cairo_t* context, const Frame& frame, std::span<const granular::S
     for (const granular::YieldPoint& point : test.points) mark(context, frame, point, colour, false);
     mark(context, frame, test.pre_shear, colour, true);
   }
+  if (tests.empty() || tests.back().on_wall.empty()) return;
+  const granular::YieldPoint& end = tests.back().on_wall.back();
+  figure::draw_text(context, "wall", frame.x(end.normal / 1e3) + 5, frame.y(end.shear / 1e3) + 3,
+                    {.size = 8.5, .colour = figure::muted});
 }
 
 void draw_flow_function(cairo_t* context, const Frame& frame, std::span<const granular::ShearTest> tests) {

@@ -285,10 +285,11 @@ double speed_of_fall(const continuum::Layout& layout) {
 }  // namespace
 
 double shear_over_bulk(std::optional<GrainMaterial> material) {
-  const auto solid = material ? solid_of_code(*material) : std::nullopt;
-  if (!solid) return 0.6;
-  const double ratio = 1 - std::sin(solid->internal);
-  return 1.5 * (1 - ratio) / (1 + 2 * ratio);
+  if (!material) return 0.6;
+  const std::string key = "lateral_pressure_ratio.value";
+  std::optional<double> ratio = read<double>(file_of(*material), key, Parameter{key, dimension::none});
+  if (const auto solid = solid_of_code(*material)) ratio = 1 - std::sin(solid->internal);
+  return ratio ? 1.5 * (1 - *ratio) / (1 + 2 * *ratio) : 0.6;
 }
 
 double bulk_modulus_for(const continuum::Layout& layout, double end) {

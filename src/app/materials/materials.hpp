@@ -2,8 +2,9 @@
 /// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
 /// it fills in, with `value`, and `range` and `source` of it, of a friction also `test` and the `angle` that it gave;
 /// [walls.NAME] of each wall that its friction is known of;
-/// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid. A case may
-/// also name a file of its own, which talus calibrate writes: the same without [en1991.NAME].
+/// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid;
+/// [lateral_pressure_ratio], K of a bed at rest, where it was measured. A case may also name a file of its own, which
+/// talus calibrate writes: the same without the last two.
 #pragma once
 
 #include <array>
@@ -74,9 +75,9 @@ CaseFile without_own_material(const CaseFile& file);
 double bulk_modulus_for(const continuum::Layout& layout, double end);
 
 /// The shear modulus G over the bulk modulus B. Of a material that EN 1991-4 lists so that a bed which has settled
-/// without strain to the sides has K = 1 - sin phi_i: below yield K = (1 - 2G/3B)/(1 + 4G/3B). Of others 0.6, as in the
-/// paper's law at zero strain. Source: Jaky, J. Soc. Hung. Eng. Archit. 78, 355 (1944); in a model bin of soybeans
-/// Atewologun, Riskowski & Muehling; the code's own K is 1.1 times as much.
+/// without strain to the sides has K = 1 - sin phi_i: below yield K = (1 - 2G/3B)/(1 + 4G/3B). Of one whose K was
+/// measured by that; of others 0.6, as in the paper's law at zero strain. Source: Jaky, J. Soc. Hung. Eng. Archit. 78,
+/// 355 (1944); in a model bin of soybeans Atewologun, Riskowski & Muehling; the code's own K is 1.1 times as much.
 double shear_over_bulk(std::optional<continuum::GrainMaterial> material);
 
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The

@@ -155,18 +155,19 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
 }
 
 TEST(Materials, ABedAtRestHasTheLateralPressureRatioOfItsAngle) {
-  for (const GrainMaterial material :
-       {GrainMaterial::wheat, GrainMaterial::maize, GrainMaterial::sand, GrainMaterial::cement}) {
+  for (const GrainMaterial material : {GrainMaterial::wheat, GrainMaterial::maize, GrainMaterial::sand,
+                                       GrainMaterial::cement, GrainMaterial::soybean}) {
     granular::CriticalState::Parameters law;
     law.bulk_modulus = 1e7, law.shear_modulus = shear_over_bulk(material) * law.bulk_modulus;
     law.static_friction = 0.57;
+    const auto solid = solid_of_code(material);
+    const double ratio = solid ? 1 - std::sin(solid->internal) : 0.54;
     const std::vector<granular::PathStretch> path = {{1, {.zz = -1e-3}}};
     const auto stress = granular::follow_path(granular::make_law(law, 1350), path,
                                               {.density = 0.6 * 1350, .max_increment = 1e-5, .points = 1})
                             .back()
                             .stress;
-    EXPECT_NEAR(stress.xx / stress.zz, 1 - std::sin(solid_of_code(material)->internal), 1e-3)
-        << choices<GrainMaterial>[static_cast<std::size_t>(material)];
+    EXPECT_NEAR(stress.xx / stress.zz, ratio, 1e-3) << choices<GrainMaterial>[static_cast<std::size_t>(material)];
   }
   EXPECT_EQ(shear_over_bulk({}), 0.6);
   EXPECT_EQ(shear_over_bulk(GrainMaterial::glass_beads), 0.6) << "the code does not list them";

@@ -192,11 +192,6 @@ TEST(CriticalState, GrainsApartAreFreeAndTouchWhereTheyCame) {
   EXPECT_NEAR(mean(far[3].stress), 4.9e6 * (std::log(0.6 / 0.55) - 0.08), 1);
 }
 
-/// Shear without spin: shortened along z, widened along x.
-Tensor3<> pure_shear(double rate) {
-  return {.xx = 0.5 * rate, .zz = -0.5 * rate};
-}
-
 TEST(CriticalState, TurnsItsStressWithAStressedBlock) {
   const Tensor3<> spin{.xz = M_PI / 2, .zx = -M_PI / 2};
   const auto points =
