@@ -87,6 +87,7 @@ TEST(Materials, EveryEntryOfAFileIsTaken) {
     EXPECT_TRUE(filled.problems.empty());
     for (const MaterialLine& line : lines_of(material)) {
       if (line.key == "pressure" || line.key.starts_with("walls.") || line.key.starts_with("en1991.")) continue;
+      if (line.key == "lateral_pressure_ratio") continue;  // of the shear modulus, which takes it (below)
       EXPECT_TRUE(filled.keys.contains(line.key)) << "no key of a case: " << line.key;
     }
     EXPECT_GT(p.grains.range.min_diameter, 0);
