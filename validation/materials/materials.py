@@ -55,6 +55,8 @@ def runs_of(material, kinds=KINDS):
             settings = {"grains.material": material, "bed.spacing": spacing}
             if kind in ("channel", "drum"):
                 settings["box.depth"] = spacing
+            if kind == "heap" and material in SETUP["heap_rate"]:
+                settings["inlet.1.rate"] = SETUP["heap_rate"][material]
             if kind == "column":
                 settings["walls.material"] = SETUP["floor"][material]
             if ratio:
