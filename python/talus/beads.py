@@ -109,14 +109,14 @@ def bulk_stiffness(packing, pressure):
 
 def cohesive_state(table, bond):
     """C, inertial number, friction and packing of cohesive.txt, means of its steady part. C is the attraction over sigma d^2, with
-    sigma at the centre of Mohr's circle, for which friction is taken too. \param bond the same over the pressure across"""
+    sigma at the centre of Mohr's circle, for which friction is taken too. \\param bond the same over the pressure across"""
     packing, xx, yy, zz, xy = table[table[:, 1] > COHESIVE_STEADY, 2:7].mean(axis=0)
     centre = 0.5 * (xx + yy)
     return (bond * COHESIVE_PRESSURE / centre, RATE / np.sqrt((xx + yy + zz) / 3), np.hypot(0.5 * (xx - yy), xy) / centre, packing)
 
 
 def strength(inertial, friction, law):
-    """a/sigma of steady shear in which tau = mu(I') (sigma + a), I' = I/(1 + a/sigma)^1/2. \param law mu_s, mu_2 and I_0"""
+    """a/sigma of steady shear in which tau = mu(I') (sigma + a), I' = I/(1 + a/sigma)^1/2. \\param law mu_s, mu_2 and I_0"""
     slow, fast, scale = law
     total = friction / slow  # 1 + a/sigma
     for _ in range(50):
@@ -125,15 +125,15 @@ def strength(inertial, friction, law):
 
 
 def cohesive_friction(inertial, over, law):
-    """The reverse: tau/sigma. \param over a/sigma"""
+    """The reverse: tau/sigma. \\param over a/sigma"""
     slow, fast, scale = law
     return (1 + over) * (slow + (fast - slow) / (1 + scale * np.sqrt(1 + over) / inertial))
 
 
 def cohesion_estimates(bond, over, doubt=0.0):
     """alpha and kappa of a/sigma = kappa + alpha C, each an Estimate, by least squares with errors in proportion to 1 + a/sigma, as
-    the friction has them. What would be negative is 0, and then nothing is known of how far above. \param bond, over C and a/sigma
-    of each state; \param doubt half of the interval of the friction without cohesion over it: moves all 1 + a/sigma alike"""
+    the friction has them. What would be negative is 0, and then nothing is known of how far above. \\param bond, over C and a/sigma
+    of each state; \\param doubt half of the interval of the friction without cohesion over it: moves all 1 + a/sigma alike"""
     columns = {"alpha": bond / (1 + over), "kappa": 1 / (1 + over)}
     wanted = list(columns)
     while wanted:

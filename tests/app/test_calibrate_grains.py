@@ -193,7 +193,7 @@ class FromBeads(ProgramTest):
         np.testing.assert_allclose(law["critical_packing"]["range"], [0.46, 0.554])
         np.testing.assert_allclose(ends, [stress / 5, stress / 0.3], 1e-3)
         self.assertAlmostEqual(law["static_friction"]["value"], 0.45, delta=0.02)  # as without
-        for source in (law["dilatancy"]["source"], material["walls"]["acrylic"]["source"]):
+        for source in (law["dilatancy"]["source"], law["random_loose_packing"]["source"], material["walls"]["acrylic"]["source"]):
             self.assertIn("without cohesion", source)
         (self.folder / "case.toml").write_text(CASE)
         self.talus("run", "case.toml", "--out", "run")

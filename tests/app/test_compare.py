@@ -77,7 +77,7 @@ class OfAStudy(ProgramTest):
         (self.folder / "study/measures.py").write_text(text)
 
     def rows(self, *rows, status=0, env=None):
-        """The evaluated rows by id, and what was said. \param rows quantity, unit and more"""
+        """The evaluated rows by id, and what was said. \\param rows quantity, unit and more"""
         text = REFERENCE + "".join(ROW.format(**{"id": row["quantity"], "unit": "1", "of": "each", "more": ""} | row)
                                    for row in rows)
         (self.folder / "study/reference.toml").write_text(text)

@@ -164,6 +164,7 @@ def add_cohesion(found, sources, cells, beads, plan):
     nearest = np.abs(np.log(bond)).argmin()
     found["critical_packing"] = Estimate(packing[nearest], packing.min(), packing.max())
     found["random_loose_packing"] = packing[nearest] - MAX_INERTIAL * found["packing_slope"].value
+    sources["random_loose_packing"] = f"the critical packing at an inertial number of {MAX_INERTIAL:g}, its slope without cohesion"
     sources["critical_packing"] = (f"a choice: of the cell whose attraction is {bond[nearest]:.2g} times the pressure times the diameter "
                                    f"squared; the range is that of {len(cells)} cells; {dry:.4g} without cohesion")
     if alpha.value > 0 or kappa.value > 0:

@@ -235,7 +235,7 @@ def _measures_of(path, study):
 
 
 def read_reference(path, with_rows=True):
-    """Raises RunError if it cannot be read, InputError with every problem. \param with_rows false: its cases alone, to see
+    """Raises RunError if it cannot be read, InputError with every problem. \\param with_rows false: its cases alone, to see
     whether runs are of them"""
     reader = _Reader(path, with_rows)
     file = reader.file
@@ -309,7 +309,7 @@ class _Same:
     """Whether values are the same, quantities in any unit."""
 
     def __init__(self, pairs):
-        """\param pairs of values that are to be compared"""
+        """\\param pairs of values that are to be compared"""
         texts = sorted({value for a, b in pairs if a != b for value in (a, b)
                         if isinstance(value, str) and re.match(r"\s*[-+.]?\d", value)})
         self.si = {text: found["si"] for text, found in zip(texts, ask("quantities", texts=texts) if texts else [])

@@ -94,7 +94,7 @@ def _directives(options):
 
 
 def _submit(command, what):
-    """Runs a command that submits jobs, where there is sbatch. \param what it submits, in words"""
+    """Runs a command that submits jobs, where there is sbatch. \\param what it submits, in words"""
     if not shutil.which("sbatch"):
         say(f"There is no sbatch here. Where there is: {join(map(str, command))}")
         return
@@ -106,7 +106,7 @@ def _submit(command, what):
 
 
 def launch_run(folder, command, nodes, options):
-    """Submits a run, whose script and output go beside its folder. \param command the run's, the program first, without
+    """Submits a run, whose script and output go beside its folder. \\param command the run's, the program first, without
     --resume"""
     job = Path(f"{os.path.abspath(folder)}-slurm")
     ask("claim", folders=[job], files=[job / "job.out"])

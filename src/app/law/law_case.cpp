@@ -27,7 +27,7 @@ LawCase read_law_case(const CaseFile& file) {
   const CaseFile part = without_own_material(file.contains("model") ? file.part(concerned) : file);
   LawCase parameters;
   fill_in_values(file, parameters);
-  continuum::Parameters whole;
+  continuum::Parameters whole;  // a wall's friction, and what is wrong with a file, are those of the whole case
   const FilledIn filled = fill_in_material(file, whole);
   if (filled.keys.contains("walls.coefficient")) parameters.walls.coefficient = whole.walls.coefficient;
   std::string title;

@@ -46,10 +46,6 @@ struct Evaluation {
   void velocity(Field&& field) {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
   }
-  template <class Field>
-  void density(Field&& field) {
-    for (std::size_t i = 0; i < state.position.size(); ++i) state.density[i] = field(state.position[i]);
-  }
   /// Densities from a share of the bed's to 1.1 of it, velocities and stresses of any size and sign.
   void randomise(double min_density) {
     Random random(5);
@@ -64,9 +60,6 @@ struct Evaluation {
     for (std::size_t i = 0; i < state.density.size(); ++i)
       h.push_back(pairs.smoothing_length(state.density[i], state.ratios()[i]));
     pairs.find_neighbours(team, state.position, h);
-    sum(h, terms);
-  }
-  void sum(const std::vector<double>& h, PairTerms terms) {
     pairs(team, {state.position, state.velocity, state.density, h, state.material, state.ratios()}, terms, rates);
   }
 
