@@ -11,15 +11,14 @@ import math
 
 import numpy as np
 from shear import HERE, lammps, main, states, write_rows
-from talus.beads import (GRAVITY, PLANE, SLOW, STILL, angles, cohesion_estimates, cohesive_friction, cohesive_state, fit_friction,
-                         friction_between, strength)
+from talus.beads import (COHESIVE_PRESSURE, GRAVITY, PLANE, SLOW, STILL, angles, cohesion_estimates, cohesive_friction,
+                         cohesive_state, fit_friction, friction_between, strength)
 
 CELLS, SLOPES = HERE / "data" / "cohesion.csv", HERE / "data" / "cohesive-slopes.csv"
 ROLLING = 0.2
 #: Attraction over pressure times d^2, packing before the pressure, strain of each side as the cell is pulled apart.
 BONDS = ((0, 0.56, 0), (0.3, 0.56, 0.01), (0.6, 0.56, 0.01), (1, 0.56, 0), (2.5, 0.5, 0.01), (5, 0.56, 0))
 HELD_OUT = 2.5
-PRESSURE = 2e-4  # as in cohesive.in
 #: Layers: attraction over the weight of a bead, seed, slopes at first, in between and at last; settings of incline.in.
 LAYERS = ((20, 1, 38, 26, 50), (20, 2, 38, 26, 0), (6, 1, 32, 22, 55))
 LAYER = {"rolling": ROLLING, "thickness": 12, "length": 7, "width": 5, "time": 0.8}
@@ -28,7 +27,7 @@ AT_REST = 0.137  # beyond slow shear, of these beads without cohesion (incline.p
 
 def tension(table):
     """The largest mean tension of pull.txt over the pressure of the shear before."""
-    return -table[:, 3:6].mean(axis=1).min() / PRESSURE
+    return -table[:, 3:6].mean(axis=1).min() / COHESIVE_PRESSURE
 
 
 def run(folder):
