@@ -84,8 +84,8 @@ class Materials(unittest.TestCase):
 
     def test_a_heap_has_the_slope_that_it_was_cut_at(self):
         for degrees in (21.0, 34.0):
-            angle, by_foot, on = materials.slope_of_heap(self.cone(degrees), self.SPACING)
-            self.assertAlmostEqual(angle, degrees, delta=1.5)
+            angle, by_foot, on = materials.heap_of(self.cone(degrees), self.SPACING)
+            self.assertAlmostEqual(angle, degrees, delta=0.5)
             self.assertAlmostEqual(by_foot, degrees, delta=2.5)
             self.assertTrue(on.all())
 

@@ -17,6 +17,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "drum")]
 import study  # noqa: E402
 import talus  # noqa: E402
+from talus import heap  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 SETUP, BANDS = REFERENCE["setup"], REFERENCE["bands"]
@@ -61,7 +62,12 @@ def runs_of(material, kinds=KINDS):
                 settings["walls.material"] = SETUP["floor"][material]
             if ratio:
                 settings["bed.height"] = f"{1e3 * ratio * size[kind]:g} mm"
-            yield kind, ratio, f"{material}/{kind}" + (f"-{ratio:g}" if ratio else ""), settings
+            folder = f"{material}/{kind}" + (f"-{ratio:g}" if ratio else "")
+            if kind == "heap":
+                for courant in SETUP["heap_courant"]:
+                    yield kind, ratio, f"{folder}-{courant:g}", settings | {"integration.courant": courant}
+            else:
+                yield kind, ratio, folder, settings
 
 
 def cases(options):
@@ -101,24 +107,13 @@ def round_deposit(x, spacing, column):
     return foot_of(radius, direction, spacing, 36), x[on, 2][axis].max() + 0.5 * spacing, on
 
 
-def slope_of_heap(x, spacing):
+def heap_of(x, spacing):
     """Angle of the flanks, that of height over foot, both in degrees, and which particles belong to the heap. \\param x places, from
     the axis, m"""
     on = deposit(x, spacing)
-    x = x[on]
-    radius, direction = np.hypot(x[:, 0], x[:, 1]), np.arctan2(x[:, 1], x[:, 0])
-    foot = foot_of(radius, direction, spacing, 12)
-    ring = np.floor((radius - 0.2 * foot) / (2 * spacing)).astype(int)
-    cell = (12 * (direction % (2 * np.pi)) / (2 * np.pi)).astype(int) % 12
-    points = []
-    for n in range(int(0.6 * foot / (2 * spacing))):
-        for k in range(12):
-            here = (ring == n) & (cell == k)
-            if here.any():
-                points.append((0.2 * foot + (2 * n + 1) * spacing, x[here, 2].max() + 0.5 * spacing))
-    slope = np.polyfit(*np.array(points).T, 1)[0]
-    height = x[radius < 3 * spacing, 2].max() + 0.5 * spacing
-    return np.degrees(np.arctan(-slope)), np.degrees(np.arctan(height / foot)), on
+    radius, direction = np.hypot(x[on, 0], x[on, 1]), np.arctan2(x[on, 1], x[on, 0])
+    height = x[on, 2][radius < 3 * spacing].max() + 0.5 * spacing
+    return heap.slope_of(x[on]), np.degrees(np.arctan(height / foot_of(radius, direction, spacing, 12))), on
 
 
 def angle_of_drum(run, spacing):
@@ -152,7 +147,7 @@ def measure_run(run, kind, ratio):
         x[:, :2] -= 0.5 * np.array([run.case["box"]["width"], run.case["box"]["depth"]])
         distance = np.hypot(x[:, 0], x[:, 1])
         if kind == "heap":
-            angle, by_foot, on = slope_of_heap(x, spacing)
+            angle, by_foot, on = heap_of(x, spacing)
             return {"heap": angle, "by-foot": by_foot, "stray": stray_share(x, velocity, on, spacing)}, None
         foot, height, on = round_deposit(x, spacing, size)
     edges = np.arange(0, foot + spacing, 2 * spacing)
@@ -164,17 +159,20 @@ def measure_run(run, kind, ratio):
 
 
 def measure(options):
-    numbers, found = {}, {"by-foot": {}, "profiles": []}
+    numbers, found = {}, {"heaps": {}, "profiles": []}
     for material in options.material:
-        stray = []
+        stray, heaps = [], []
         for kind, ratio, folder, _ in runs_of(material, options.only):
             of, profile = measure_run(talus.Run(options.out / folder), kind, ratio)
             stray.append(of.pop("stray", 0))
-            if "by-foot" in of:
-                found["by-foot"][material] = of.pop("by-foot")
+            if kind == "heap":
+                heaps.append((of.pop("heap"), of.pop("by-foot")))
             if profile:
                 found["profiles"].append((material, kind, *profile))
             numbers |= {f"{material} {name}": value for name, value in of.items()}
+        if heaps:
+            found["heaps"][material] = heaps
+            numbers[f"{material} heap"] = np.mean([angle for angle, _ in heaps])
         numbers[f"{material} stray"] = max(stray)
     found["without-band"] = {name: numbers.pop(name) for name in list(numbers) if name not in ROWS}
     return numbers, found
@@ -182,8 +180,9 @@ def measure(options):
 
 def tell(numbers, found):
     lines = [study.table_of_numbers(ROWS, numbers)]
-    for material, angle in found["by-foot"].items():
-        lines.append(f"{material}: height over foot of the poured heap {angle:.1f} degrees.")
+    for material, heaps in found["heaps"].items():
+        angles, by_foot = (", ".join(f"{angle:.1f}" for angle in of) for of in zip(*heaps))
+        lines.append(f"{material}: heaps of {angles} degrees, by height over foot {by_foot}.")
     for name, value in found["without-band"].items():
         lines.append(f"{name}, no band: {value:.3g}.")
     return "\n".join(lines) + "\n"
