@@ -7,7 +7,7 @@ import subprocess
 import time
 
 from attack import WAIT, Attack, Fault, bits, require, require_list, require_same
-from small_cases import CLOUD, FIGURES, HOPPER, REFERENCE
+from small_cases import CLOUD, FIGURES, HOPPER, LEVELS, REFERENCE
 
 LONGEST_CHAIN = 12  # kills; then it may end
 MINE = ("notes.txt", "snapshots/mine.vtkhdf", "analysis/mine.csv")
@@ -82,6 +82,11 @@ class CloudKills(Kills):
 class HopperKills(CloudKills):
     name, full = "kills: a hopper in air", 350
     text = HOPPER
+
+
+class LevelsKills(CloudKills):
+    name, full = "kills: particles that split and merge", 100
+    text = LEVELS
 
 
 class EnsembleKills(CloudKills):

@@ -11,7 +11,7 @@ from pathlib import Path
 from attack import WAIT, require, require_list, require_same
 from disk import PAGE, RUN, HopperOnFullDisk, mount
 from kills import HopperKills
-from small_cases import CLOUD, HOPPER
+from small_cases import CLOUD, HOPPER, LEVELS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from hash_ranks import ENVIRONMENT, MPIRUN  # noqa: E402
@@ -88,6 +88,11 @@ class OneOfSeveralKilled(OnRanks, HopperKills):
 class OneOfACloudsKilled(OneOfSeveralKilled):
     name, full = "kills: one process of a cloud's", 50
     text = LONG_CLOUD
+
+
+class OneOfLevelsKilled(OneOfSeveralKilled):
+    name, full = "kills: one process of several with particles that split and merge", 50
+    text = LEVELS
 
 
 class SeveralOnFullDisk(OnRanks, HopperOnFullDisk):

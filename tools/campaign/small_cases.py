@@ -64,6 +64,47 @@ pictures = false
 checkpoint_interval = "15 ms"
 """
 
+# Coarser particles that split on their way to the slit, of which some merge below it.
+LEVELS = """model = "continuum"
+[box]
+width = "120 mm"
+depth = "20 mm"
+height = "140 mm"
+floor = "open"
+[plate]
+height = "30 mm"
+slit_left = "45 mm"
+slit_right = "75 mm"
+[removal]
+below = "20 mm"
+[gate]
+opens = "when-settled"
+[grains]
+density = "2500 kg/m3"
+diameter = "1 mm"
+[bed]
+packing = 0.6
+spacing = "5 mm"
+height = "80 mm"
+velocity = ["0 m/s", "0 m/s", "-0.5 m/s"]
+[levels]
+count = 1
+distance = "20 mm"
+[settle]
+max_time = "10 ms"
+duration = "0.2 ms"
+speed = "2 m/s"
+loading_time = "0 s"
+[run]
+end = "60 ms"
+[output]
+snapshots = "5 ms"
+series = "1 ms"
+pictures = false
+report = false
+checkpoint_interval = "15 ms"
+"""
+
 # A study under a name that `talus reproduce` knows: two variants of the cloud, one row that is met.
 REFERENCE = """study = "niiya2020"
 title = "A small study"
