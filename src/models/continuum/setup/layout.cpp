@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t max_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
 constexpr double max_tried = 1e6;                              // positions, to count the particles of a bed
-constexpr double max_in_vessel = 2e6;                          // the same in a vessel
+constexpr double max_in_vessel = 2e6;  // the same in a vessel; a sector looks at its share of them
 
 /// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
 /// faces, or the vessel where it stands apart from both.
@@ -243,7 +243,8 @@ double count_of_bed(const Layout& layout) {
   if (layout.has_no_bed()) return 0;
   if (p.bed.mass) return count_of_mass(p);
   if (!p.vessel.empty()) {
-    if (layout.lattice.positions() <= max_in_vessel) return static_cast<double>(bed_in_vessel(layout).size());
+    if (layout.lattice.positions() <= max_in_vessel * layout.copies)
+      return static_cast<double>(bed_in_vessel(layout).size());
     Parameters coarser = p;
     coarser.bed.spacing *= 2;
     return 8 * bed_count(Layout(coarser));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 namespace {
@@ -101,6 +102,14 @@ TEST(BedCount, IsTheNumberOfParticlesPlaced) {
   const auto placed = static_cast<double>(bed_positions(Layout(p)).size());
   EXPECT_EQ(bed_count(Layout(p)), placed);
   EXPECT_LT(placed, lattice_of(p).positions());
+}
+
+TEST(BedCount, OfASectorIsExactWhereThatOfItsWholeWouldTakeLong) {
+  Parameters p = silo_of_parts(6);
+  p.bed.spacing *= 0.08;
+  const Layout layout(p);
+  ASSERT_GT(layout.lattice.positions(), 2.1e6);
+  EXPECT_EQ(bed_count(layout), static_cast<double>(bed_positions(layout).size()));
 }
 
 TEST(BedCount, OfManyParticlesTakesAMoment) {
