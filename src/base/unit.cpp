@@ -140,14 +140,21 @@ std::string likely_unit(std::string_view symbol) {
   const std::string wanted = lower(symbol);
   for (const auto& [word, unit] : words)
     if (wanted == word || wanted == std::string(word) + "s") return std::string(unit);
+  // Of those that differ in case alone, the one that differs least: MPa of MPA, not mPa.
+  std::string likely;
+  std::size_t most = 0;
+  const auto take = [&](const std::string& name) {
+    if (lower(name) != wanted) return;
+    std::size_t same = 1;
+    for (std::size_t n = 0; n < name.size(); ++n) same += name[n] == symbol[n];
+    if (same > most) most = same, likely = name;
+  };
   for (const Unit& unit : units) {
-    if (lower(unit.symbol) == wanted) return std::string(unit.symbol);
-    for (const Prefix& prefix : prefixes) {
-      const std::string name = prefix.symbol + std::string(unit.symbol);
-      if (unit.takes_prefix && lower(name) == wanted) return name;
-    }
+    take(std::string(unit.symbol));
+    if (!unit.takes_prefix) continue;
+    for (const Prefix& prefix : prefixes) take(prefix.symbol + std::string(unit.symbol));
   }
-  return {};
+  return likely;
 }
 
 constexpr std::size_t max_factors = 8;

@@ -117,11 +117,27 @@ class Check(BedTest):
         self.assertLess((x - 30) ** 2 + (y - 30) ** 2, 10 ** 2, "in the hole")
         self.assertAlmostEqual(z, 40, delta=4)
 
+    def test_it_warns_of_grains_that_are_taken_away_at_once_or_fall_for_ever(self):
+        said = " ".join(self.talus("check", "case.toml", "--set", "removal.below=44 mm").stdout.split())
+        self.assertRegex(said, r"! grains taken away at once = 4\d(\.\d+)? mm: the bed reaches below removal\.below, 44 mm")
+        terrain = (BIN[:BIN.index("[[vessel]]")] + """[[vessel]]
+name = "slope"
+shape = "plate"
+corner = ["0 mm", "0 mm", "80 mm"]
+first_edge = ["120 mm", "0 mm", "-40 mm"]
+second_edge = ["0 mm", "60 mm", "0 mm"]
+""" + BIN[BIN.index("[gate]\n"):]).replace('opens = "at-time"\ntime = "40 ms"', 'opens = "from-the-start"')
+        self.write(terrain.replace('below = "24 mm"', 'below = "1 mm"'))
+        for bottom, falls in (("4 mm", True), ("84 mm", False)):
+            said = self.talus("check", "case.toml", "--set", f"bed.bottom={bottom}").stdout
+            self.assertEqual("nothing below the bed" in said, falls, said[-1500:])
+
     def test_the_bed_of_no_case_leaves_its_vessel(self):
         for case in ("silo-cone", "silo-square", "hourglass", "drum", "chute-bend"):
             with self.subTest(case):
                 said = self.talus("check", PROJECT / f"cases/{case}.toml").stdout
-                for warning in ("way out of the vessel", "bed outside the vessel", "gate without grains"):
+                for warning in ("way out of the vessel", "bed outside the vessel", "gate without grains",
+                                "taken away at once", "nothing below the bed"):
                     self.assertNotIn(warning, said)
 
 
@@ -152,6 +168,15 @@ class File(BedTest):
                                   r"allowed: 0 to 60 mm")
         self.lay("x [mm],y [mm],z [mm]\n28,30,60\n28.1,30,60\n")
         self.assertRegex(self.problems("check", "case.toml")[0], r"line 2: is 0\.1 mm from line 3")
+        self.lay("x [mm],y [mm],z [mm],density [kg/m3]\n28,30,60,2000\n")
+        self.assertRegex(self.problems("check", "case.toml")[0], r"line 2: density = 2000 kg/m3; allowed: above 0 and up to "
+                                                                 r"1961 kg/m3")
+        self.lay("x [mm],y [mm],z [mm]\n28,30,60\n30,30,60\n32,30,60\n")
+        self.assertRegex(self.problems("check", "case.toml")[0], r"bed\.spacing: 4 mm, but most particles of .*bed\.csv have "
+                                                                 r"another within 2\.4 mm")
+        self.lay("x [mm],y [mm],z [mm]\n28,30,0.5\n")
+        self.assertRegex(self.problems("check", "case.toml", "--set", "box.floor=wall")[0],
+                         r"line 2: is 0\.5 mm from the floor; allowed: at least 1\.2 mm")
         self.lay("x [mm],y [mm],z [mm],velocity_z [m/s]\n28,30,60,1\n")
         self.assertRegex(self.problems("check", "case.toml")[0], "has no column velocity_x")
         self.lay("x [mm],y [mm],z [mm]\n")

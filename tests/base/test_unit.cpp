@@ -173,6 +173,8 @@ TEST(ParseQuantity, SaysWhatIsWrong) {
   EXPECT_EQ(why_not("5 lbs"), "has the unknown unit 'lbs'; write 'lb'");
   EXPECT_EQ(why_not("5 kin"), "has the unknown unit 'kin'");
   EXPECT_EQ(why_not("5 KPA"), "has the unknown unit 'KPA'; write 'kPa'");
+  EXPECT_EQ(why_not("5 MPA"), "has the unknown unit 'MPA'; write 'MPa'");
+  EXPECT_EQ(why_not("5 mpa"), "has the unknown unit 'mpa'; write 'mPa'");
   EXPECT_EQ(why_not("5 kmin"), "has the unknown unit 'kmin'");
   EXPECT_EQ(why_not("5 12"), "has a second number after the first");
   EXPECT_EQ(why_not("5 mm 3"), "has '3' where a unit is due");

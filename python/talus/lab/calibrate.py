@@ -31,8 +31,8 @@ def read_walls(words, problems):
 
 def table_of_loci(loci, friction, strength, growth):
     """What each locus says beside the fit, Pa."""
-    lines = [f"{'consolidation':>14}{'angle':>8}{'fit':>7}{'f_c':>9}{'fit':>8}{'sigma_1':>10}{'fit':>8}{'ff_c':>7}{'fit':>6}"
-             f"{'off points':>12}", f"{'Pa':>14}{'deg':>8}{'deg':>7}{'Pa':>9}{'Pa':>8}{'Pa':>10}{'Pa':>8}"]
+    lines = [f"{'consolidation':>14}{'angle':>8}{'fit':>7}{'f_c':>11}{'fit':>11}{'sigma_1':>11}{'fit':>11}{'ff_c':>7}"
+             f"{'fit':>7}{'off points':>12}", f"{'Pa':>14}{'deg':>8}{'deg':>7}{'Pa':>11}{'Pa':>11}{'Pa':>11}{'Pa':>11}"]
     angle = math.atan(friction)
     for locus in loci:
         bond = strength + growth * locus["consolidation"]
@@ -42,8 +42,8 @@ def table_of_loci(loci, friction, strength, growth):
         off = np.sqrt(np.mean((friction * (points[:, 0] + bond) / points[:, 1] - 1) ** 2))
         ratio = locus["major"] / locus["strength"] if locus["strength"] > 0 else math.inf
         lines.append(f"{locus['consolidation']:14.4g}{math.degrees(locus['angle']):8.1f}{math.degrees(angle):7.1f}"
-                     f"{locus['strength']:9.4g}{f_c:8.4g}{locus['major']:10.4g}{major:8.4g}{ratio:7.3g}"
-                     f"{major / f_c if f_c else math.inf:6.3g}{100 * off:10.1f} %")
+                     f"{locus['strength']:11.4g}{f_c:11.4g}{locus['major']:11.4g}{major:11.4g}{ratio:7.3g}"
+                     f"{major / f_c if f_c else math.inf:7.3g}{100 * off:10.1f} %")
     return "\n".join(lines)
 
 

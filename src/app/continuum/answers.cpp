@@ -104,7 +104,10 @@ class FlowAnswers {
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
     else if (const auto shut = setup_.boundary->shut_since(end_); shut && !(stopped < *shut - slack))
       answer.answer = fmt::format("was shut after {}: {}", time_text(*shut), rest);
-    else if (is_cohesive() && has_arch() && (std::isfinite(stopped) || !(discharged() > 1e-9)))
+    else if (const double opens = continuum::first_opening(setup_.vessel_outlets); opens > 0 && !(end_ > opens))
+      answer.answer = fmt::format("was shut until the end of the run: {}", rest);
+    else if (is_cohesive() && has_arch() &&
+             (std::isfinite(stopped) || (!(discharged() > 1e-9) && end_ - opens > time_to_start())))
       answer.answer =
           fmt::format("arched at {}, over the outlet: {}", std::isfinite(stopped) ? time_text(stopped) : "once", rest);
     else if (std::isfinite(stopped))
@@ -119,6 +122,10 @@ class FlowAnswers {
     return answer;
   }
 
+  /// In which grains fall some outlets' widths: what has not begun to flow by then does not.
+  double time_to_start() const {
+    return 3 * std::sqrt(setup_.outlet_width.value_or(0) / setup_.given.gravity.acceleration);
+  }
   bool is_cohesive() const { return continuum::has_cohesion(setup_.given); }
   bool has_arch() const { return of("outlet_packing") >= arch * setup_.given.bed.packing; }
   /// Higher than what slopes leave beside the outlet.

@@ -117,6 +117,11 @@ figure::ParticlePicture picture_of(const Section& cut, const figure::View& view,
   return picture;
 }
 
+/// Without what rounding leaves of 0.
+double in_millimetres(double length) {
+  return std::abs(length) < 1e-9 ? 0 : length / millimetre;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> bed_lines(const Layout& layout) {
@@ -129,8 +134,8 @@ std::vector<std::pair<std::string, std::string>> bed_lines(const Layout& layout)
     lines.emplace_back(name, fmt::format("{:.0f} particles, {:.4g} kg", report.particles, report.mass));
     std::vector<std::string> extents;
     for (int axis = 0; axis < 3; ++axis)
-      extents.push_back(fmt::format("{} {:.4g} to {:.4g} mm", "xyz"[axis], report.low[axis] / millimetre,
-                                    report.high[axis] / millimetre));
+      extents.push_back(fmt::format("{} {:.4g} to {:.4g} mm", "xyz"[axis], in_millimetres(report.low[axis]),
+                                    in_millimetres(report.high[axis])));
     lines.emplace_back("lies at", fmt::format("{}", fmt::join(extents, ", ")));
     lines.emplace_back("lies against",
                        report.beside.empty() ? "no wall or face" : fmt::format("{}", fmt::join(report.beside, ", ")));

@@ -59,7 +59,7 @@ std::vector<NamedValue> groups(const Setup& setup) {
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&
       p.beds.empty() && !setup.has_no_bed() && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
-                      density * p.gravity.acceleration * p.bed.height /
+                      density * p.gravity.acceleration * std::cos(p.gravity.tilt) * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(setup); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto& outlet = setup.outlet)

@@ -56,6 +56,18 @@ const VesselPart* cone_above(const continuum::Parameters& p, const continuum::Ve
   return nullptr;
 }
 
+/// The pyramid that ends at an outlet.
+const VesselPart* pyramid_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
+  for (const VesselPart& v : p.vessel) {
+    if (outlet.round || v.shape != continuum::VesselShape::pyramid) continue;
+    const Vector3 axis = continuum::on_axis(p, v);
+    if (std::abs(v.bottom - outlet.middle.z) <= p.bed.spacing &&
+        std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) < 0.1 * outlet.narrow)
+      return &v;
+  }
+  return nullptr;
+}
+
 /// The cone through which the vessel empties.
 const VesselPart* emptying_cone(const continuum::Layout& layout) {
   return layout.vessel_outlets.empty() ? nullptr : cone_above(layout.given, layout.vessel_outlets.front());
@@ -97,7 +109,9 @@ double discharge_by_hand(const continuum::Layout& layout, const continuum::Vesse
 double discharge_by_hand(const continuum::Layout& layout) {
   if (layout.given.vessel.empty()) return discharge_of_slit(layout);
   double rate = 0;
-  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) rate += discharge_by_hand(layout, outlet);
+  const double first = continuum::first_opening(layout.vessel_outlets);
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets)
+    if (!(outlet.opens_after > first)) rate += discharge_by_hand(layout, outlet);
   return rate;
 }
 
@@ -125,9 +139,20 @@ double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
 std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
   const VesselPart* cone = emptying_cone(layout);
-  if (!continuum::has_cohesion(p) || !(cone || p.wedge.half_angle)) return std::nullopt;
+  if (!continuum::has_cohesion(p)) return std::nullopt;
   const auto& law = p.law.of<granular::CriticalState>();
   const double weight = bulk_density(p) * p.gravity.acceleration;
+  if (!layout.vessel_outlets.empty())
+    if (const VesselPart* pyramid = pyramid_above(p, layout.vessel_outlets.front())) {
+      // Of a square outlet as of a round one; of a slot, at least three times as long as wide, as of a wedge.
+      const continuum::VesselOutlet& outlet = layout.vessel_outlets.front();
+      const double opens =
+          0.5 * std::max(pyramid->upper_width - pyramid->lower_width, pyramid->upper_depth - pyramid->lower_depth);
+      return granular::critical_outlet(
+          outlet.length < 3 * outlet.narrow ? granular::HopperShape::cone : granular::HopperShape::wedge,
+          std::atan(opens / (pyramid->top - pyramid->bottom)), friction_of(layout, *pyramid), law, weight);
+    }
+  if (!cone && !p.wedge.half_angle) return std::nullopt;
   return cone ? granular::critical_outlet(granular::HopperShape::cone, half_angle_of_cone(layout),
                                           friction_of(layout, *cone), law, weight)
               : granular::critical_outlet(granular::HopperShape::wedge, *p.wedge.half_angle, p.walls.coefficient, law,

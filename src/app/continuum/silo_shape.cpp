@@ -22,6 +22,20 @@ constexpr double levels_of_trial = 60;  // of the vessel's height
 constexpr double least_height = 0.1;    // of a piece, over its width
 constexpr std::size_t facets_of_round = 16;
 
+/// Between two upright walls of a box along an axis, m: twice the way from a plane of symmetry to the one before it;
+/// infinite where images stand before both. \param width between both walls
+double free_width(const continuum::Layout& layout, int axis, double middle, double width) {
+  const Box& box = layout.boundary->domain().box();
+  const auto is_image = [&](int side) {
+    const FaceKind kind = box.faces[static_cast<std::size_t>(2 * axis + side)];
+    return kind == FaceKind::symmetry || kind == FaceKind::periodic;
+  };
+  const double low = middle - 0.5 * width, high = middle + 0.5 * width;
+  const bool hides_low = is_image(0) && low < box.low[axis], hides_high = is_image(1) && high > box.high[axis];
+  if (hides_low && hides_high) return std::numeric_limits<double>::infinity();
+  return hides_low ? 2 * (high - box.low[axis]) : hides_high ? 2 * (box.high[axis] - low) : width;
+}
+
 std::optional<SiloPiece> piece_of(const continuum::Layout& layout, std::size_t n) {
   const VesselPart& v = layout.given.vessel[n];
   const bool is_box = v.shape == VesselShape::box;
@@ -33,8 +47,13 @@ std::optional<SiloPiece> piece_of(const continuum::Layout& layout, std::size_t n
                   .axis = continuum::on_axis(layout.given, v),
                   .parts = {n}};
   if (is_box) {
-    piece.area = v.width * v.depth, piece.circumference = 2 * (v.width + v.depth);
-    piece.width = std::min(v.width, v.depth);
+    const double width = free_width(layout, 0, piece.axis.x, v.width),
+                 depth = free_width(layout, 1, piece.axis.y, v.depth);
+    const bool is_endless[] = {std::isinf(width), std::isinf(depth)};
+    if (is_endless[0] && is_endless[1]) return std::nullopt;
+    const double w = is_endless[0] ? v.width : width, d = is_endless[1] ? v.depth : depth;
+    piece.area = w * d, piece.circumference = 2 * ((is_endless[1] ? 0 : w) + (is_endless[0] ? 0 : d));
+    piece.width = std::min(width, depth);
     return piece;
   }
   const double radius = is_cone(v) ? v.upper_radius : v.radius;

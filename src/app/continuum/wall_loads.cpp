@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -16,13 +17,21 @@
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
+#include "models/continuum/setup/bed_report.hpp"
 
 namespace talus::app {
 
 std::vector<BandOfWall> bands_of(const continuum::Layout& layout) {
+  const SurfaceFields fields = load_fields(layout);
+  const std::vector<char> is_far = continuum::far_faces(layout, fields);
   std::vector<BandOfWall> bands;
-  for (const continuum::LoadBand& band : load_bands(layout.given, load_fields(layout)))
-    bands.push_back({band.name, band.patch, band.low, band.high, band.area, band.sine});
+  for (const continuum::LoadBand& band : load_bands(layout.given, fields)) {
+    double area = band.area, level = band.area * band.sine;
+    for (const std::uint32_t n : band.fields)
+      if (is_far[n]) area -= fields.all()[n].area, level -= fields.all()[n].area * std::abs(fields.all()[n].normal.z);
+    if (!(area > 1e-9 * band.area)) area = level = 0;
+    bands.push_back({band.name, band.patch, band.low, band.high, area, area > 0 ? level / area : band.sine});
+  }
   return bands;
 }
 
@@ -104,18 +113,44 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   write_table(folder / "wall_stress.csv", columns, against_time);
 }
 
+namespace {
+
+struct Level {
+  double low, high;  // m
+};
+/// Where the beds of the start lie if they fill the box from wall to wall, one on the other.
+std::optional<Level> level_of_beds(const continuum::Setup& setup) {
+  constexpr double most_apart = 1.0, least_full = 0.9;  // spacings; of the space between the lowest and the highest
+  const continuum::Parameters& p = setup.given;
+  Vector3 low{INFINITY, INFINITY, INFINITY}, high = -1 * low;
+  double mass = 0;
+  for (const std::size_t n : setup.beds) {
+    const continuum::BedReport bed = continuum::report_of_bed(setup.with_bed_alone(n));
+    mass += bed.mass;
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = std::min(low[axis], bed.low[axis]), high[axis] = std::max(high[axis], bed.high[axis]);
+  }
+  const double apart = most_apart * p.bed.spacing, full = setup.density * p.box.width * p.box.depth * (high.z - low.z);
+  const bool fills = low.x < apart && low.y < apart && high.x > p.box.width - apart && high.y > p.box.depth - apart;
+  if (!fills || !(mass > least_full * full)) return std::nullopt;
+  return Level{low.z, high.z};
+}
+
+}  // namespace
+
 void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Setup& setup) {
   const continuum::Parameters& p = setup.given;
-  const bool is_apart = p.bed.left || p.bed.right;
-  if (!p.vessel.empty() || p.wedge.half_angle || !p.plates.empty() || is_apart || run.series.rows() < 2) return;
-  const double t = run.setting.averaging_time, end = run.end(), bottom = setup.bottom;
-  const double side = p.bed.height * p.box.depth, face = p.bed.height * p.box.width, ground = p.box.width * p.box.depth;
+  if (!p.vessel.empty() || p.wedge.half_angle || !p.plates.empty() || run.series.rows() < 2) return;
+  const std::optional<Level> beds = level_of_beds(setup);
+  if (!beds) return;
+  const double t = run.setting.averaging_time, end = run.end(), height = beds->high - beds->low;
+  const double side = height * p.box.depth, face = height * p.box.width, ground = p.box.width * p.box.depth;
   struct Wall {
     const char* name;
     char axis;
     double area, low, high;
   };
-  const double low = bottom, high = bottom + p.bed.height;
+  const double low = beds->low, high = beds->high;
   const Wall walls[] = {{"left", 'x', side, low, high},  {"right", 'x', side, low, high},
                         {"front", 'y', face, low, high}, {"rear", 'y', face, low, high},
                         {"floor", 'z', ground, 0, 0},    {"plate", 'z', ground, low, low}};

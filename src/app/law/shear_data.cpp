@@ -157,7 +157,9 @@ std::vector<MeasuredLocus> read_shear_data(const std::filesystem::path& path) {
     points += loci[n].points.size();
   }
   if (loci.size() < least_loci || points < least_points_in_all)
-    faults.add(0, "", fmt::format("holds {} loci with {} points of failure", loci.size(), points),
+    faults.add(0, "",
+               fmt::format("holds {} yield {} with {} points of failure", loci.size(),
+                           loci.size() == 1 ? "locus" : "loci", points),
                "two loci of different consolidation and four points at least");
   faults.finish();
   return loci;

@@ -67,13 +67,18 @@ TALUS_CLONES void subtract_differences(std::ptrdiff_t count, const Vector3& per_
 
 Convection::Convection(const FaceApertures& apertures) : apertures_(apertures) {}
 
-void Convection::fill_ghosts(Stream& stream) const {
+void Convection::fill_ghosts(Stream& stream, double upwind) const {
   const Grid& grid = apertures_.grid;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {
-      if (!apertures_.boundaries.is_open(axis, side)) continue;
       const int n = grid.count[static_cast<std::size_t>(axis)];
       const std::ptrdiff_t outward = side == 0 ? -grid.stride(axis) : grid.stride(axis);
+      if (apertures_.boundaries.kind[static_cast<std::size_t>(2 * axis + side)] == FlowBoundary::inflow)
+        for (int component = 0; component < 3; ++component)  // what comes in brings no velocity along the face
+          if (auto& u = stream.velocity[static_cast<std::size_t>(component)]; component != axis)
+            for_each_in_layer(grid, axis, side == 0 ? 0 : n - 1,
+                              [&](std::size_t c) { u[plus(c, outward)] = -(1 - upwind) / (1 + upwind) * u[c]; });
+      if (!apertures_.boundaries.is_open(axis, side)) continue;
       const auto& through = stream.mass[static_cast<std::size_t>(axis)];
       for (int component = 0; component < 3; ++component) {
         const auto a = static_cast<std::size_t>(component);

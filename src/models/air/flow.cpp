@@ -43,6 +43,7 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
   for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_,
                            &conductance_, &predicted_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
+  find_inflow();
 }
 
 void AirFlow::set_walls(const std::vector<Wall>& walls, const Surface& surface) {
@@ -63,6 +64,8 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   }
   move(team, dt, state);
   finish(team, dt, state, impulse);
+  exchange_at_inflow(dt, state, impulse);
+  set_inflow(state.velocity, stream_.mass);
   part_.refresh(std::array{&state.velocity[0], &state.velocity[1], &state.velocity[2], &stream_.mass[0],
                            &stream_.mass[1], &stream_.mass[2]});
   for (std::size_t a = 0; a < 3; ++a) {
@@ -90,7 +93,8 @@ void AirFlow::extrapolate(ThreadTeam& team, double dt, const Solids& solids, con
     for (CellField* field : {&solid_fraction_[a], &void_fraction_[a], &grain_velocity_[a], &stream_.velocity[a]})
       apertures_.wrap(*field);
   }
-  convection_.fill_ghosts(stream_);
+  set_inflow(stream_.velocity, stream_.mass);
+  convection_.fill_ghosts(stream_, parameters_.upwind);
   for_each_row(team, grid, grid.count, part_.beside, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
     if (!implicit_) viscosity_.find_velocity_divergence_of_row(grid.row(j, k), begin, stream_.velocity);
     measure_drag_of_row(begin, cells_from(begin, solids, stream_.velocity));
@@ -161,6 +165,7 @@ void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
                  });
   }
   std::swap(stream_.velocity, predicted_);
+  set_inflow(stream_.velocity);
   if (implicit_) {
     // Includes the guessed pressure: viscosity then acts on the final velocity, and a steady flow is exact.
     add_pressure(team, dt, state.pressure);
@@ -214,6 +219,9 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
       state.velocity[a][f] *= apertures_.open[a][f];
       state.momentum[a][f] = parameters_.density() * void_fraction_[a][f] * state.velocity[a][f];
     });
+  }
+  set_inflow(state.velocity, state.momentum);
+  for (std::size_t a = 0; a < 3; ++a) {
     apertures_.wrap(state.velocity[a]);
     apertures_.wrap(state.momentum[a]);
     state.momentum_before[a] = state.momentum[a];

@@ -43,6 +43,9 @@ class AirFlow {
   AirFlow(const AirFlow&) = delete;
   AirFlow& operator=(const AirFlow&) = delete;
 
+  /// Whether air comes in through the faces that are an inflow; it does until told otherwise.
+  void let_in(bool comes_in) { comes_in_ = comes_in; }
+
   /// Replaces the walls after a gate has opened.
   void set_walls(const std::vector<Wall>& walls, const Surface& surface = Surface::none());
 
@@ -99,6 +102,10 @@ class AirFlow {
   double find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity);
   void project(ThreadTeam& team, double dt, AirState& state);
   void find_storage(ThreadTeam& team, double dt);
+  void find_inflow();
+  void set_inflow(FaceField& velocity) const;
+  void set_inflow(FaceField& velocity, FaceField& mass) const;
+  void exchange_at_inflow(double dt, AirState& state, FaceField& impulse) const;
   void fill_ghosts(CellField& pressure) const;
   /// 1 if the pressure gradient acts on the grains by their volume fraction, 0 in model B.
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
@@ -124,6 +131,12 @@ class AirFlow {
   std::vector<Rates> max_of_row_;
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
+  struct Inflow {
+    std::size_t axis, face, cell, row;
+    double velocity, into;  // of the volume flow along the axis, m/s; into the cell, m^3/s
+  };
+  std::vector<Inflow> inflow_;
+  bool comes_in_ = true;
 };
 
 }  // namespace talus::air

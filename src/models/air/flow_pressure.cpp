@@ -57,6 +57,9 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
     max_flow_[static_cast<std::size_t>(k * grid.count[1] + j)] =
         find_source_of_row(grid.count[0], with_grains, row, source_.data() + begin);
   });
+  if (comes_in_)
+    for (const Inflow& in : inflow_)
+      if (in.row >= part_.own_slab().begin && in.row < part_.own_slab().end) source_[in.cell] += in.into;
   double most = 0;
   for (std::size_t row = part_.own_slab().begin; row < part_.own_slab().end; ++row)
     most = std::max(most, max_flow_[row]);

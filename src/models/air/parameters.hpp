@@ -3,8 +3,10 @@
 /// values are the defaults.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,7 +65,8 @@ struct Parameters {
                                      FlowBoundary::free_slip, FlowBoundary::no_slip, FlowBoundary::open},
                             .pressure = {},
                             .wall_velocity = {}};
-  std::array<std::array<double, 3>, 6> wall_velocity{};  ///< of faces that are walls, by face_number, m/s
+  std::array<std::array<double, 3>, 6> wall_velocity{};  ///< of walls and of what comes in, by face_number, m/s
+  std::optional<std::array<double, 3>> inflow_low, inflow_high;
 
   double density() const { return air::density(pressure, temperature); }
   coupling::DragMedium medium() const {
@@ -74,7 +77,7 @@ struct Parameters {
   }
 };
 
-/// Walls that move across themselves, or faces that move and are no walls.
+/// Walls that move across themselves, faces that move and are no walls, inflow that does not come in or cannot leave.
 std::vector<Problem> check(const Parameters& parameters);
 
 inline constexpr RenamedKey renamed_keys[] = {
@@ -93,7 +96,8 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
                   {},
                   {},
                   "boundary condition of the air at the left face, independent of that of the grains: a no-slip wall, "
-                  "a plane of symmetry (or a slip wall), periodic (with its opposite), or open at a given pressure"},
+                  "a plane of symmetry (or a slip wall), periodic (with its opposite), open at a given pressure, or "
+                  "inflow: a wall through which air comes in at a given velocity, from the opening of the gate on"},
         p.boundaries.kind[0]);
   visit(Parameter{"air.right", {}, {}, "the right face"}, p.boundaries.kind[1]);
   visit(Parameter{"air.front", {}, {}, "the front face"}, p.boundaries.kind[2]);
@@ -103,7 +107,8 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
   constexpr struct {
     const char *face, *pressure, *velocity;
   } faces[6] = {{"left", "pressure beyond the left face if it is open, relative to air.pressure",
-                 "velocity along x, y and z of the left face if it is a wall that moves tangentially"},
+                 "velocity along x, y and z of the left face if it is a wall that moves tangentially, or of the air "
+                 "that comes in there: volume flow over area, as if there were no grains"},
                 {"right", "beyond the right face", "of the right face"},
                 {"front", "beyond the front face", "of the front face"},
                 {"rear", "beyond the rear face", "of the rear face"},
@@ -115,6 +120,17 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
     open(Parameter{key + "_pressure", dimension::pressure, any(), faces[k].pressure}, p.boundaries.pressure[k]);
     visit(Parameter{key + "_velocity", dimension::velocity, any(), faces[k].velocity}, p.wall_velocity[k]);
   }
+  const bool comes_in = std::any_of(p.boundaries.kind.begin(), p.boundaries.kind.end(),
+                                    [](FlowBoundary kind) { return kind == FlowBoundary::inflow; });
+  auto inflow =
+      only_if({"air.floor", "is no inflow, nor is another face", "or another face \"inflow\"", comes_in}, visit);
+  inflow(Parameter{"air.inflow_low",
+                   dimension::length,
+                   {},
+                   "lower corner of a box: air comes in through what of the inflow's faces lies in it, the rest are "
+                   "walls; left out: through all of them"},
+         p.inflow_low);
+  inflow(Parameter{"air.inflow_high", dimension::length, {}, "its upper corner"}, p.inflow_high);
   flowing(Parameter{"air.upwind", dimension::none, between(0, 1),
                     "upwind weight of the convection of the air: 0 the printed fourth-order central scheme, 1 the "
                     "third-order upwind-biased one"},
@@ -182,5 +198,6 @@ template <>
 inline constexpr auto choices<coupling::DragLaw> = std::to_array<std::string_view>({"schiller-naumann+umekage-yuu",
                                                                                     "ergun-wen-yu"});
 template <>
-inline constexpr auto choices<FlowBoundary> = std::to_array<std::string_view>({"wall", "symmetry", "periodic", "open"});
+inline constexpr auto choices<FlowBoundary> = std::to_array<std::string_view>({"wall", "symmetry", "periodic", "open",
+                                                                               "inflow"});
 }  // namespace talus

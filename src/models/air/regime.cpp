@@ -40,15 +40,16 @@ std::vector<RegimeLine> regime_of_case(const ModelParameters& p) {
   const double rho = p.gas.density(), speed = given_speed(p);
   const double mach = speed / std::sqrt(1.4 * p.gas.pressure / rho);
   const double reynolds = rho * speed * grid_of(p).spacing.x / p.gas.viscosity;
-  std::vector<RegimeLine> lines = {
-      {"Mach number of the case", fmt::format("{:.3g}", mach),
-       "speed of the walls or of the start over that of sound; the air is taken for incompressible, up to about 0.3",
-       mach > 0.3},
-      {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
-       "speed of the walls or of the start times cell over kinematic viscosity; central convection (air.upwind = 0) "
-       "may "
-       "oscillate above 2, most where layers are thin (Patankar 1980)",
-       p.gas.upwind == 0 && reynolds > 2}};
+  std::vector<RegimeLine> lines = {{"Mach number of the case", fmt::format("{:.3g}", mach),
+                                    "speed of the walls, of what comes in or of the start over that of sound; the air "
+                                    "is taken for incompressible, up to about 0.3",
+                                    mach > 0.3},
+                                   {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
+                                    "speed of the walls, of what comes in or of the start times cell over kinematic "
+                                    "viscosity; central convection (air.upwind = 0) "
+                                    "may "
+                                    "oscillate above 2, most where layers are thin (Patankar 1980)",
+                                    p.gas.upwind == 0 && reynolds > 2}};
   if (const double passage = narrowest_passage(p); std::isfinite(passage)) {
     const double knudsen = mean_free_path(p.gas.viscosity, p.gas.pressure, p.gas.temperature) / passage;
     lines.push_back({"Knudsen number", fmt::format("{:.3g}", knudsen),
@@ -59,6 +60,35 @@ std::vector<RegimeLine> regime_of_case(const ModelParameters& p) {
   return lines;
 }
 
+namespace {
+
+void check_inflow(const Parameters& p, std::size_t face, const char* name, std::vector<Problem>& problems) {
+  const auto& velocity = p.wall_velocity[face];
+  const std::size_t axis = face / 2;
+  const std::string key = fmt::format("air.{}_velocity", name);
+  if (!((face % 2 == 0 ? 1 : -1) * velocity[axis] > 0))
+    problems.push_back({.key = key,
+                        .what = fmt::format("no air would come in: {:g} m/s along {}", velocity[axis], "xyz"[axis]),
+                        .allowed = fmt::format("{} 0 m/s along {}", face % 2 == 0 ? "above" : "below", "xyz"[axis])});
+  for (std::size_t b = 0; b < 3; ++b)
+    if (b != axis && velocity[b] != 0)
+      problems.push_back({.key = key,
+                          .what = fmt::format("air would come in aslant: {:g} m/s along {}", velocity[b], "xyz"[b]),
+                          .allowed = fmt::format("0 m/s along {}", "xyz"[b])});
+  const auto& kinds = p.boundaries.kind;
+  const bool is_vented = std::find(kinds.begin(), kinds.end(), FlowBoundary::open) != kinds.end();
+  if (p.motion == Motion::frozen)
+    problems.push_back({.key = fmt::format("air.{}", name),
+                        .what = "air comes in, but it is frozen",
+                        .allowed = "air.motion = \"flowing\""});
+  else if (!is_vented && p.compressibility == Compressibility::none)
+    problems.push_back({.key = fmt::format("air.{}", name),
+                        .what = "air comes in, and none of the faces lets it out",
+                        .allowed = "another face \"open\", or air.compressibility = \"isothermal\""});
+}
+
+}  // namespace
+
 std::vector<Problem> check(const Parameters& p) {
   constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
   std::vector<Problem> problems;
@@ -66,11 +96,15 @@ std::vector<Problem> check(const Parameters& p) {
     const auto& velocity = p.wall_velocity[face];
     const bool moves = velocity != std::array<double, 3>{};
     const std::string key = fmt::format("air.{}_velocity", names[face]);
-    if (moves && p.boundaries.kind[face] != FlowBoundary::no_slip)
-      problems.push_back(
-          {.key = key,
-           .what = fmt::format("given, but air.{} is \"{}\"", names[face], choice_name(p.boundaries.kind[face])),
-           .allowed = fmt::format("air.{} = \"wall\"", names[face])});
+    const FlowBoundary kind = p.boundaries.kind[face];
+    if (kind == FlowBoundary::inflow) {
+      check_inflow(p, face, names[face], problems);
+      continue;
+    }
+    if (moves && kind != FlowBoundary::no_slip)
+      problems.push_back({.key = key,
+                          .what = fmt::format("given, but air.{} is \"{}\"", names[face], choice_name(kind)),
+                          .allowed = fmt::format("air.{} = \"wall\" or \"inflow\"", names[face])});
     if (velocity[face / 2] != 0)
       problems.push_back({.key = key,
                           .what = fmt::format("the wall would move along {}, across itself", "xyz"[face / 2]),

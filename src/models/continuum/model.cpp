@@ -116,6 +116,9 @@ Continuum::Totals Continuum::find_totals() const {
   const State& s = state_;
   const Box& box = domain().box();
   const Share& share = workspace_->share;
+  // Particles past a periodic face come back at the next list build.
+  const bool ends[] = {box.faces[0] != FaceKind::periodic, box.faces[2] != FaceKind::periodic,
+                       box.faces[4] != FaceKind::periodic};
   double square = 0, min_density = infinity, max_density = -infinity, max_packing = -infinity;
   std::uint64_t outside = 0;
   const FixedPoint point(s.impulse_unit);
@@ -128,8 +131,9 @@ Continuum::Totals Continuum::find_totals() const {
     min_density = std::min(min_density, s.density[i]);
     max_density = std::max(max_density, s.density[i]);
     max_packing = std::max(max_packing, s.packing[i]);
-    const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) |
-                            (x.z < box.low.z) | (x.z > box.high.z);
+    const bool is_outside = (ends[0] & ((x.x < box.low.x) | (x.x > box.high.x))) |
+                            (ends[1] & ((x.y < box.low.y) | (x.y > box.high.y))) |
+                            (ends[2] & ((x.z < box.low.z) | (x.z > box.high.z)));
     if (is_outside) outside += s.units_of(i);
   }
   Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};
@@ -309,10 +313,10 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
            "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains; "
            "the lattice of the start, beside walls and about a sector's axis, has up to {:.3f}",
            at_start),
-       packing > std::max(max_packing, slack * at_start)},
+       packing > (setup_->given.bed.given ? max_packing : std::max(max_packing, slack * at_start))},
       {"share of slow flow", fmt::format("{:.3f}", slow),
-       "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
-       slow < 0.5},
+       "inertial_share: particles with an inertial number below 0.01; laws without a dependence on the rate hold there",
+       slow < 0.5 && !std::isfinite(setup_->material.range().max_inertial_number)},
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
   if (const double most = setup_->material.range().max_pressure; std::isfinite(most)) {

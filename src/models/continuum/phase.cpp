@@ -41,7 +41,7 @@ bool is_being_filled(const Parameters& p, double time) {
   });
 }
 
-/// How many are beside or below the box around the vessel.
+/// How many are beside or below the box around the vessel; those past a periodic face come back at the next list build.
 std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position, const Share& share) {
   VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
   if (!p.vessel.empty()) {
@@ -50,11 +50,12 @@ std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& posi
       room.low[axis] = std::max(room.low[axis], vessel.low[axis]),
       room.high[axis] = std::min(room.high[axis], vessel.high[axis]);
   }
+  const bool ends_along_x = p.box.left != FaceKind::periodic, ends_along_y = p.box.front != FaceKind::periodic;
   std::size_t outside = 0;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vector3& x = position[i];
-    outside += share.owns(i) &&
-               (x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z);
+    outside += share.owns(i) && ((ends_along_x && (x.x < room.low.x || x.x > room.high.x)) ||
+                                 (ends_along_y && (x.y < room.low.y || x.y > room.high.y)) || x.z < room.low.z);
   }
   return outside;
 }
@@ -110,7 +111,9 @@ void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, St
     const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
     const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "
                                         "STL files below the top of the bed); then "
-                                      : "";
+                             : p.gravity.tilt > 0
+                                 ? "where it flows down the incline gate.opens = \"from-the-start\"; else "
+                                 : "";
     throw NumericalError({.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
                           .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, count, gone),
                           .place = "the bed",

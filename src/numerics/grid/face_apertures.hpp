@@ -45,13 +45,14 @@ enum class FlowBoundary {
   no_slip,    ///< a wall that holds the fluid
   free_slip,  ///< a wall without friction, or a plane of symmetry
   periodic,
-  open  ///< to a given pressure: the static one of a fluid that leaves, the total one of a fluid that enters from rest
+  open,  ///< to a given pressure: the static one of a fluid that leaves, the total one of a fluid that enters from rest
+  inflow  ///< a no-slip wall through which fluid comes in at a given velocity, which its user adds
 };
 
 struct FlowBoundaries {
   std::array<FlowBoundary, 6> kind{};      ///< by face_number
   std::array<double, 6> pressure{};        ///< beyond an open face, Pa, against any reference
-  std::array<Vector3, 6> wall_velocity{};  ///< of a wall along itself, m/s
+  std::array<Vector3, 6> wall_velocity{};  ///< of a wall along itself, of an inflow across, m/s
 
   bool is_periodic(int axis) const { return kind[static_cast<std::size_t>(2 * axis)] == FlowBoundary::periodic; }
   bool is_open(int axis, int side) const {

@@ -63,6 +63,22 @@ TEST_F(Answers, StandBesideTheAnalyticalEstimates) {
   EXPECT_EQ(find("Walls carry at rest").answer, "99.2 % of the weight");
 }
 
+TEST_F(Answers, OfASiloThatWasNotOpenForLongClaimNoArch) {
+  set("residual_fraction", 1), set("residual_mass", 12.3), set("flow_stop_time", none), set("outlet_packing", 0.6);
+  set("emptying_time", none);
+  continuum::Parameters p = small_silo();
+  granular::CriticalState::Parameters law;
+  law.tensile_strength = 1000;
+  p.law = law;
+  const auto flow = [&](double opens, double end) {
+    p.vessel.back().opens_after = opens;
+    return answers_of(continuum::Setup(p), quantities, end, folder).front().answer;
+  };
+  EXPECT_EQ(flow(1, 0.9), "was shut until the end of the run: 12.3 kg (100 %) left");
+  EXPECT_EQ(flow(1, 1.1), "has not started: 12.3 kg (100 %) left");
+  EXPECT_EQ(flow(1, 2), "arched at once, over the outlet: 12.3 kg (100 %) left");
+}
+
 TEST_F(Answers, OfASiloThatJammedClaimNoFlow) {
   set("residual_fraction", 0.998), set("residual_mass", 12.34), set("flow_stop_time", 0.31);
   set("outlet_packing", 0.55);

@@ -40,6 +40,29 @@ continuum::Parameters bunker() {
   return p;
 }
 
+/// An upright box of 1 m by `depth` about the middle of a slice 0.1 m deep between planes of symmetry.
+TEST(SiloShape, OfABoxHasTheWallsThatGrainsMeet) {
+  const auto of = [](double depth, double middle) {
+    continuum::Parameters p;
+    p.box.width = 1.2, p.box.depth = 0.1, p.box.height = 3;
+    p.bed.spacing = 0.02, p.walls.coefficient = 0.3;
+    VesselPart v;
+    v.name = "bin", v.shape = VesselShape::box, v.width = 1, v.depth = depth, v.bottom = 0.5, v.top = 2.5;
+    v.centre = {0.6, middle};
+    p.vessel = {v};
+    const continuum::Layout layout(p);
+    const SiloShape shape(layout);
+    EXPECT_EQ(shape.pieces.size(), 1u);
+    return std::pair(shape.pieces[0].area / shape.pieces[0].circumference, shape.pieces[0].width);
+  };
+  for (const double depth : {0.11, 0.4}) {
+    EXPECT_NEAR(of(depth, 0.05).first, 0.5, 1e-12) << "neither front nor rear";
+    EXPECT_NEAR(of(depth, 0.05).second, 1, 1e-12);
+  }
+  EXPECT_NEAR(of(0.16, 0).first, 0.16 / 2 / 1.16, 1e-12) << "half of it, cut through its middle";
+  EXPECT_NEAR(of(0.08, 0.05).first, 0.08 / 2 / 1.08, 1e-12) << "all of it";
+}
+
 TEST(SiloShape, OfPlatesAreUprightWallsOnAWedge) {
   const continuum::Layout layout(bunker());
   const SiloShape shape(layout);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "models/continuum/drawn_parts.hpp"
 #include "small_silo.hpp"
 
 namespace talus::app {
@@ -18,6 +19,35 @@ TEST(WallLoads, BandsAreThoseOfTheWalls) {
   EXPECT_NEAR(bands[8].sine, 0.5, 1e-3) << "the cone";
   EXPECT_NEAR(bands.back().area, continuum::half_turn * std::pow(0.03 - 0.03 * std::tan(continuum::half_turn / 6), 2),
               1e-9);
+}
+
+/// A bin of 60 by 60 by 90 mm, of sheets of 1 mm with both their faces, in one file, or of their inner faces.
+continuum::Parameters drawn_bin(bool has_both_faces) {
+  using continuum::sheet;
+  continuum::Parameters p = small_silo();
+  const double a = 0.02, b = 0.08, w = 0.06, h = 0.09;
+  const Vector3 up{0, 0, h};
+  std::vector<Triangle> all;
+  for (const auto& wall : {sheet({a, a, 0.02}, {0, w, 0}, up, 1e-3), sheet({b, b, 0.02}, {0, -w, 0}, up, 1e-3),
+                           sheet({b, a, 0.02}, {-w, 0, 0}, up, 1e-3), sheet({a, b, 0.02}, {w, 0, 0}, up, 1e-3),
+                           sheet({a, a, 0.02}, {w, 0, 0}, {0, w, 0}, 1e-3)})
+    for (const Triangle& t : has_both_faces ? wall : std::vector<Triangle>(wall.begin(), wall.begin() + 2))
+      all.push_back(t);
+  p.vessel = {continuum::drawn("bin", std::move(all))};
+  p.bed.bottom = 0.02, p.bed.height = 0.05;
+  p.bed.inside = {0.05, 0.05, 0.04};
+  return p;
+}
+
+TEST(WallLoads, OfASheetWithBothFacesAreOnTheFaceThatTheGrainsSee) {
+  const std::vector<BandOfWall> one = bands_of(continuum::Layout(drawn_bin(false))),
+                                both = bands_of(continuum::Layout(drawn_bin(true)));
+  ASSERT_GT(one.size(), 3u);
+  double of_one = 0, of_both = 0;
+  for (const BandOfWall& band : one) of_one += band.area;
+  for (const BandOfWall& band : both) of_both += band.area;
+  EXPECT_NEAR(of_one, 4 * 0.06 * 0.09 + 0.06 * 0.06, 1e-6);
+  EXPECT_NEAR(of_both, of_one, 0.06 * of_one) << "rims are a part";
 }
 
 }  // namespace

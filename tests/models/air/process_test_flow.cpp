@@ -115,6 +115,14 @@ TEST(AirOnProcesses, OpenOnAllSides) {
   expect_same_bits(setting);
 }
 
+TEST(AirOnProcesses, Inflow) {
+  Setting setting = open_top();
+  setting.parameters.boundaries.kind[4] = setting.parameters.boundaries.kind[1] = FlowBoundary::inflow;
+  setting.parameters.wall_velocity[4] = {0, 0, 0.3}, setting.parameters.wall_velocity[1] = {-0.2, 0, 0};
+  setting.parameters.inflow_low = {30e-3, 0, 0};
+  expect_same_bits(setting);
+}
+
 TEST(AirOnProcesses, Periodic) {
   Setting setting;
   setting.parameters.boundaries = all(FlowBoundary::periodic);

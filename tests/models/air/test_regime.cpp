@@ -68,5 +68,32 @@ TEST(RegimeOfAir, WarnsOfAirTooThinForItsBox) {
   EXPECT_THAT(warnings(p), IsEmpty());  // no two walls face each other
 }
 
+std::vector<std::string> wrong_keys(const Parameters& p) {
+  std::vector<std::string> keys;
+  for (const Problem& problem : check(p)) keys.push_back(problem.key);
+  return keys;
+}
+
+TEST(CheckOfAir, AsksOfAnInflowThatItComesInAndGoesOut) {
+  Parameters p;
+  p.boundaries.kind[4] = FlowBoundary::inflow;
+  p.wall_velocity[4] = {0, 0, 0.2};
+  EXPECT_THAT(wrong_keys(p), IsEmpty());
+  p.wall_velocity[4] = {0.1, 0, -0.2};
+  EXPECT_THAT(wrong_keys(p), ElementsAre("air.floor_velocity", "air.floor_velocity"));
+  p.wall_velocity[4] = {0, 0, 0.2};
+  p.boundaries.kind[5] = FlowBoundary::no_slip;
+  EXPECT_THAT(wrong_keys(p), ElementsAre("air.floor"));
+  p.compressibility = Compressibility::isothermal;
+  EXPECT_THAT(wrong_keys(p), IsEmpty());
+  p.motion = Motion::frozen;
+  EXPECT_THAT(wrong_keys(p), ElementsAre("air.floor"));
+  p = {};
+  p.boundaries.kind[1] = FlowBoundary::inflow;
+  EXPECT_THAT(wrong_keys(p), ElementsAre("air.right_velocity"));
+  p.wall_velocity[1] = {-0.2, 0, 0};
+  EXPECT_THAT(wrong_keys(p), IsEmpty());
+}
+
 }  // namespace
 }  // namespace talus::air

@@ -66,11 +66,26 @@ Domain domain_of(const Parameters& p) {
   return Domain(box, {}, 0, sector);
 }
 
+/// Whether all of a triangle lies beyond a face of the box whose other side are images: no grain meets it.
+bool is_beyond_images(const Parameters& p, const Triangle& t) {
+  const FaceKind kinds[] = {p.box.left, p.box.right, p.box.front, p.box.rear};
+  for (std::size_t face = 0; face < std::size(kinds); ++face) {
+    if (p.box.sector || (kinds[face] != FaceKind::symmetry && kinds[face] != FaceKind::periodic)) continue;
+    const int axis = static_cast<int>(face / 2);
+    const double end = axis == 0 ? p.box.width : p.box.depth;
+    if (std::all_of(t.corner.begin(), t.corner.end(),
+                    [&](const Vector3& x) { return face % 2 == 0 ? x[axis] < 0 : x[axis] > end; }))
+      return true;
+  }
+  return false;
+}
+
 Surface surface_of(const Parameters& p) {
   if (p.vessel.empty()) return {};
   std::vector<Triangle> triangles;
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (const Triangle& t : triangles_of(p, n)) triangles.push_back(t);
+    for (const Triangle& t : triangles_of(p, n))
+      if (!is_beyond_images(p, t)) triangles.push_back(t);
   return Surface(std::move(triangles), p.vessel.size());
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "models/continuum/inlets.hpp"
+#include "models/continuum/setup/forecast.hpp"
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/setup/vessel.hpp"
 
@@ -166,6 +168,45 @@ std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& field
     if (band.area > 0) band.sine /= band.area;
   }
   return bands;
+}
+
+namespace {
+
+/// Places of the bed at the start, some of them, and the middles of inlets.
+std::vector<Vector3> places_of_grains(const Layout& layout) {
+  constexpr double max_laid = 1e5;
+  constexpr std::size_t max_places = 100;
+  std::vector<Vector3> places;
+  const Layout shown = bed_count(layout) > max_laid ? Layout(coarser(layout, max_laid)) : layout;
+  const std::vector<Vector3> bed = bed_positions(shown);
+  for (std::size_t n = 0; n < bed.size(); n += 1 + bed.size() / max_places) places.push_back(bed[n]);
+  for (const Inlet& inlet : layout.given.inlets) places.push_back({inlet.centre[0], inlet.centre[1], inlet.centre[2]});
+  return places;
+}
+
+}  // namespace
+
+std::vector<char> far_faces(const Layout& layout, const SurfaceFields& fields) {
+  std::vector<char> is_far(fields.count());
+  const Surface& surface = layout.boundary->vessel();
+  const bool has_drawn = std::any_of(layout.given.vessel.begin(), layout.given.vessel.end(),
+                                     [](const VesselPart& v) { return v.shape == VesselShape::stl; });
+  if (!has_drawn || layout.sector()) return is_far;
+  const std::vector<Vector3> grains = places_of_grains(layout);
+  const auto sees_grains = [&](const Vector3& x) {
+    return std::any_of(grains.begin(), grains.end(), [&](const Vector3& y) { return !surface.blocks(x, y); });
+  };
+  const double off = 0.02 * layout.given.bed.spacing, far = norm(surface.high() - surface.low());
+  for (std::size_t n = 0; n < fields.count(); ++n) {
+    const SurfacePoint& field = fields.all()[n];
+    if (layout.given.vessel[field.patch].shape != VesselShape::stl) continue;
+    if (sees_grains(field.place + off * field.normal)) continue;
+    const Vector3 from = field.place - off * field.normal, to = field.place - far * field.normal;
+    const auto crossing = surface.first_crossing(from, to);
+    if (!crossing || surface.triangles()[crossing->triangle].patch != field.patch) continue;
+    is_far[n] = sees_grains(from + crossing->at * (to - from) - off * field.normal);
+  }
+  return is_far;
 }
 
 std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const SurfaceFields& fields,

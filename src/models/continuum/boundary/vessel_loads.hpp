@@ -93,6 +93,10 @@ struct LoadBand {
 /// patch is one.
 std::vector<LoadBand> load_bands(const Parameters& parameters, const SurfaceFields& fields);
 
+/// Which fields are the far face of a body that is drawn with both: its near face, of the same patch, sees grains of
+/// the bed at the start, or where they come in, and they do not. Of a sector none.
+std::vector<char> far_faces(const Layout& layout, const SurfaceFields& fields);
+
 /// What each band received since the start: "normal_impulse_NAME", pressing on it, and but for level ones
 /// "shear_impulse_NAME", along the wall downwards, N s.
 std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const SurfaceFields& fields,

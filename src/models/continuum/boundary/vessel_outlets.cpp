@@ -121,6 +121,12 @@ const VesselOutlet* covered_by(const std::vector<VesselOutlet>& all, const Vesse
 
 }  // namespace
 
+double first_opening(const std::vector<VesselOutlet>& outlets) {
+  const auto first = std::min_element(outlets.begin(), outlets.end(),
+                                      [](const auto& a, const auto& b) { return a.opens_after < b.opens_after; });
+  return first == outlets.end() ? 0 : first->opens_after;
+}
+
 double distance_of_walls(FaceKind a, FaceKind b, double extent) {
   const int walls = (a == FaceKind::wall ? 1 : 0) + (b == FaceKind::wall ? 1 : 0);
   return walls == 2 ? extent : walls == 1 ? 2 * extent : std::numeric_limits<double>::infinity();
@@ -149,6 +155,7 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
       open.name = gate->name, open.middle.z = std::min(gate->middle.z, hole->middle.z);
       gate = open;
     }
+    gate->opens_after = v.opens_after;
     outlets.push_back(*gate);
   }
   if (outlets.empty() && !all.empty()) {

@@ -22,6 +22,7 @@ struct VesselOutlet {
   double narrow = 0, length = 0;  ///< the narrower side and the other one, at any angle, m
   /// Whether it goes on beyond both faces of the box that it reaches, along x or y: a slot without ends.
   bool endless_along_x = false, endless_along_y = false;
+  double opens_after = 0;  ///< s after the opening of the gate, of one that a gate shuts
 
   /// Whether a place is above or below it, or no farther beside than a margin, m.
   bool is_beside(const Vector3& x, double margin) const;
@@ -31,6 +32,8 @@ struct VesselOutlet {
 /// a cone or a pyramid, the hole of a disc, or a level rim of an STL file, at its height and no larger than it. Without
 /// such a gate the lowest of these holes but for those of files, and others at its height.
 std::vector<VesselOutlet> outlets_of_vessel(const Parameters& parameters);
+/// When the first of them opens, s after the opening of the gate; 0 where there are none.
+double first_opening(const std::vector<VesselOutlet>& outlets);
 /// How far the walls are apart between which a slot ends at two faces of the box: with a mirror at one of them it is
 /// twice their distance, with mirrors at both there are none. m
 double distance_of_walls(FaceKind a, FaceKind b, double extent);

@@ -52,6 +52,7 @@ void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
 
 void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   AirAround& a = s.air;
+  flow_.let_in(s.gate_time >= 0);
   if (openings_ != boundary_.openings()) {
     openings_ = boundary_.openings();
     flow_.set_walls(boundary_.domain().walls(), boundary_.vessel());
@@ -158,6 +159,7 @@ void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_lengt
   deposit(team, s);
   add_up_all(s.air.solids);
   leave_overfull(s.air.solids);
+  flow_.let_in(s.gate_time >= 0);
   flow_.begin(team, s.air.solids, s.air.flow);
 }
 

@@ -200,6 +200,16 @@ BedReport report_of_bed(const Layout& layout) {
 
 namespace {
 
+void add_taken_away(const Parameters& p, double lowest, std::vector<RegimeLine>& lines) {
+  if (!p.removal.below || !(lowest < *p.removal.below)) return;
+  lines.push_back(
+      {"grains taken away at once", fmt::format("{:.4g} mm", lowest / millimetre),
+       fmt::format("the bed reaches below removal.below, {:.4g} mm: what lies there is gone after the first "
+                   "step",
+                   *p.removal.below / millimetre),
+       true});
+}
+
 /// Of a bed alone. \returns whether it lies above a gate
 bool examine_bed(const Layout& layout, std::vector<RegimeLine>& lines) {
   const Parameters& p = layout.given;
@@ -236,6 +246,16 @@ bool examine_bed(const Layout& layout, std::vector<RegimeLine>& lines) {
                        "hole or a gap between walls, a rim below the bed's top, or an outlet without a gate",
                        true});
   }
+  const auto lowest = std::min_element(bed.begin(), bed.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  if (lowest != bed.end()) add_taken_away(p, lowest->z, lines);
+  const auto falls = [&](const Vector3& x) {
+    return !surface.blocks(x, {x.x, x.y, std::min(-1.0, surface.low().z - 1)}) && !is_between_walls(surface, x);
+  };
+  if (p.box.floor == FaceKind::open && 2 * std::count_if(bed.begin(), bed.end(), falls) > std::ssize(bed))
+    lines.push_back({"nothing below the bed", place_text(*std::find_if(bed.begin(), bed.end(), falls)),
+                     "neither a wall nor the floor is below most grains of the bed: they fall out of the box; "
+                     "bed.bottom, or bed.inside on the other side of a wall",
+                     true});
   const std::vector<LevelOpening> openings = level_openings(layout);
   return std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
     return std::any_of(bed.begin(), bed.end(),
@@ -247,7 +267,11 @@ bool examine_bed(const Layout& layout, std::vector<RegimeLine>& lines) {
 
 std::vector<RegimeLine> regime_of_bed(const Layout& layout) {
   std::vector<RegimeLine> lines;
-  if (layout.given.vessel.empty() || layout.has_no_bed()) return lines;
+  if (layout.has_no_bed()) return lines;
+  if (layout.given.vessel.empty()) {
+    for (const std::size_t n : layout.beds) add_taken_away(layout.given, layout.with_bed_alone(n).bottom, lines);
+    return lines;
+  }
   bool above = false;
   for (const std::size_t n : layout.beds) above = examine_bed(layout.with_bed_alone(n), lines) || above;
   const std::vector<LevelOpening> openings = level_openings(layout);

@@ -20,8 +20,17 @@ constexpr std::int64_t max_along_an_axis = 1'000'000'000'000;  // far beyond wha
 constexpr double max_tried = 1e6;                              // positions, to count the particles of a bed
 constexpr double max_in_vessel = 2e6;  // the same in a vessel; a sector looks at its share of them
 
+/// Whether an upright box of the vessel has a wall there, across an axis.
+bool is_side_of_box(const Parameters& p, int axis, double place) {
+  return std::any_of(p.vessel.begin(), p.vessel.end(), [&](const VesselPart& v) {
+    if (v.shape != VesselShape::box || v.along != Along::z) return false;
+    const double half = 0.5 * (axis == 0 ? v.width : v.depth);
+    return std::abs(std::abs(place - on_axis(p, v)[axis]) - half) < 1e-9 * half;
+  });
+}
+
 /// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
-/// faces, or the vessel where it stands apart from both.
+/// faces, or the vessel where it stands apart from both, or its upright box where a face cuts it.
 Extent bed_along(const Parameters& p, int axis, double width, const std::optional<double>& first,
                  const std::optional<double>& last) {
   if (p.bed.given) return {p.bed.given->low[axis] - 0.5 * p.bed.spacing, p.bed.given->high[axis] + 0.5 * p.bed.spacing};
@@ -29,6 +38,10 @@ Extent bed_along(const Parameters& p, int axis, double width, const std::optiona
   if (!p.vessel.empty())
     if (const VesselBounds around = bounds_of_vessel(p); around.low[axis] > 0 && around.high[axis] < width)
       extent = {around.low[axis], around.high[axis]};
+    else if (around.low[axis] > 0 && is_side_of_box(p, axis, around.low[axis]))
+      extent.low = around.low[axis];
+    else if (around.high[axis] < width && is_side_of_box(p, axis, around.high[axis]))
+      extent.high = around.high[axis];
   return {first.value_or(extent.low), last.value_or(extent.high)};
 }
 

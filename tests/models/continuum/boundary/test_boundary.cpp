@@ -18,6 +18,21 @@ std::vector<std::string> names(const Boundary& boundary) {
   return all;
 }
 
+/// A slice between planes of symmetry through an upright box whose front and rear lie just behind them.
+TEST(Boundary, HasNoWallBehindAPlaneOfSymmetry) {
+  Parameters p = room(12, 4, 12);
+  p.box.front = p.box.rear = FaceKind::symmetry;
+  VesselPart bin = named("bin", VesselShape::box);
+  bin.centre = {6 * spacing, 2 * spacing}, bin.width = 8 * spacing, bin.depth = 4.2 * spacing, bin.top = 10 * spacing;
+  p.vessel = {bin};
+  const Boundary sliced(p);
+  const Vector3 middle{6 * spacing, 0.4 * spacing, 5 * spacing};
+  EXPECT_FALSE(sliced.vessel().nearest(middle, spacing));
+  EXPECT_TRUE(sliced.vessel().blocks(middle, {0, middle.y, middle.z})) << "the walls across the slice stay";
+  p.box.front = p.box.rear = FaceKind::open;
+  EXPECT_TRUE(Boundary(p).vessel().nearest(middle, spacing));
+}
+
 TEST(Boundary, HasAPatchForEachFacePlateAndPartOfTheVessel) {
   Parameters p = room(12, 12, 12);
   p.walls.friction = Friction::coulomb, p.walls.coefficient = 0.3;

@@ -38,6 +38,23 @@ Parameters empty_bin() {
   return p;
 }
 
+/// A quarter of an upright box, of 10.4 by 10.4 spacings, its axis along the corner of the box between two planes of
+/// symmetry.
+TEST(Bed, OfAQuarterOfABoxEndsAtItsWalls) {
+  Parameters p = room(16, 16, 30);
+  make_granular(p);
+  p.box.left = p.box.right = p.box.front = p.box.rear = FaceKind::symmetry;
+  VesselPart bin = named("bin", VesselShape::box);
+  bin.centre = {0, 0}, bin.width = bin.depth = 20.8 * spacing, bin.bottom = 0, bin.top = 20 * spacing;
+  p.vessel = {bin};
+  p.bed.height = 8 * spacing;
+  ASSERT_THAT(check(p), IsEmpty());
+  const Layout layout(p);
+  const double expected = bulk_density(p) * 10.4 * 10.4 * 8 * spacing * spacing * spacing;
+  EXPECT_NEAR(layout.lattice.mass * bed_count(layout), expected, 1e-9 * expected);
+  for (const Vector3& x : bed_positions(layout)) EXPECT_LT(std::max(x.x, x.y), 10.4 * spacing);
+}
+
 TEST(NoParticles, ABinIsFilledFromAnInletAndDrainsToTheLast) {
   const Parameters p = empty_bin();
   ASSERT_THAT(check(p), IsEmpty());
