@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/discharge.hpp"
 #include "analysis/particle_field.hpp"
@@ -233,8 +234,13 @@ double settled_stress_ratio(const HopperRun& run, const Window&) {
 }
 
 double balance_error(const HopperRun& run, const Window& window) {
-  const double to = run.gate_time + time_of(window, run);
-  return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - averages(run).load, to);
+  const double to = run.gate_time + time_of(window, run), from = to - averages(run).load;
+  double mass = run.setting.mass();  // that is there in the middle of the window
+  for (const auto& [column, sign] : {std::pair{"fed_mass", 1.0}, std::pair{"removed_mass", -1.0}})
+    if (const Curve curve = run.curve(column); !curve.time.empty())
+      mass +=
+          sign * value_at(curve, std::clamp(0.5 * (from + to) - run.gate_time, curve.time.front(), curve.time.back()));
+  return weight_balance_error(run.series, mass * run.setting.gravity, from, to);
 }
 
 }  // namespace talus::hopper

@@ -84,6 +84,17 @@ double measure(std::string_view name, const HopperRun& run, const Window& window
   return find_row(hopper_measures(), name)->estimator.of(run, window);
 }
 
+TEST(Hopper, TheWeightIsOfTheGrainsThatAreThere) {
+  HopperRun run = run_of_a_steady_flow();
+  const auto add = [&](const char* name, double value) {
+    run.series.names.push_back(name), run.series.units.push_back("kg");
+    run.series.columns.emplace_back(run.series.columns.front().size(), value);
+  };
+  add("fed_mass", run.setting.mass());
+  add("removed_mass", 0.5 * run.setting.mass());
+  EXPECT_NEAR(measure("weight_balance_error", run, {.at = 1}), 1 / 1.5 - 1, 1e-9);
+}
+
 TEST(Hopper, QuantitiesOfARun) {
   const HopperRun run = run_of_a_steady_flow();
   const auto is = [&](std::string_view name, const Window& window) { return measure(name, run, window); };

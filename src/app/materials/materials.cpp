@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -189,12 +190,12 @@ std::vector<MaterialLine> lines_of(GrainMaterial material) {
 
 std::string angles_of_friction(double friction) {
   const auto degrees = [&](granular::FrictionTest test) {
-    return granular::angle_of_friction(test, friction) * 180 / std::numbers::pi;
+    const double angle = granular::angle_of_friction(test, friction) * 180 / std::numbers::pi;
+    return std::isfinite(angle) ? fmt::format("{:.1f}", angle) : "none";
   };
-  return fmt::format(
-      "{:.1f} degrees on the plane of a shear tester, {:.1f} in plane strain, {:.1f} in triaxial compression",
-      degrees(granular::FrictionTest::shear_plane), degrees(granular::FrictionTest::plane_strain),
-      degrees(granular::FrictionTest::triaxial_compression));
+  return fmt::format("{} degrees on the plane of a shear tester, {} in plane strain, {} in triaxial compression",
+                     degrees(granular::FrictionTest::shear_plane), degrees(granular::FrictionTest::plane_strain),
+                     degrees(granular::FrictionTest::triaxial_compression));
 }
 
 std::optional<granular::en1991::Solid> solid_of_code(GrainMaterial material) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/granular/law.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -42,7 +44,9 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
   std::vector<Problem> problems;
   if (p.dynamic_friction < p.static_friction)
     problems.push_back({.key = "dynamic_friction",
-                        .what = "fast flow would have less friction than slow flow, and would run away",
+                        .what = fmt::format("{:g}, and static_friction {:g}: fast flow would have less friction than "
+                                            "slow flow, and would run away",
+                                            p.dynamic_friction, p.static_friction),
                         .allowed = "at least static_friction"});
   for (const auto& [key, packing] :
        {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
