@@ -12,6 +12,18 @@ inline FlowBoundaries all(FlowBoundary kind) {
   return boundaries;
 }
 
+/// The pressure drop of a bed of packing 0.6, Pa/m, at a superficial velocity of 0.01 m/s. In model B the drag is the
+/// whole resistance; in model A it is what the air's share of the pressure balances.
+struct FixedBed {
+  coupling::DragLaw law;
+  Formulation formulation;
+  double drop;
+};
+inline constexpr FixedBed fixed_beds[] = {
+    {coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_a, 2152},
+    {coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_b, 0.4 * 2152},
+    {coupling::DragLaw::ergun_wen_yu, Formulation::model_a, 3849}};
+
 template <class Body>
 void for_each_cell(const Grid& grid, Body&& body) {
   for (int k = 0; k < grid.count[2]; ++k)

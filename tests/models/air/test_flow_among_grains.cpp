@@ -13,16 +13,7 @@ namespace talus::air {
 namespace {
 
 TEST(AirFlow, PressureDropOfAFixedBedIsThatOfTheDragLaw) {
-  struct Expected {
-    coupling::DragLaw law;
-    Formulation formulation;
-    double drop;
-  };
-  // In model B the drag is the whole resistance; in model A it is what the air's share of the pressure balances.
-  for (const auto& [law, formulation, drop] :
-       {Expected{coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_a, 2152},
-        Expected{coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_b, 0.4 * 2152},
-        Expected{coupling::DragLaw::ergun_wen_yu, Formulation::model_a, 3849}}) {
+  for (const auto& [law, formulation, drop] : fixed_beds) {
     Parameters p;
     p.drag = law;
     p.formulation = formulation;

@@ -36,15 +36,7 @@ TEST(AirInflow, FillsAnEmptyChannelWithItsVelocityWithoutPressure) {
 
 /// As in PressureDropOfAFixedBedIsThatOfTheDragLaw, where pressures give the flow.
 TEST(AirInflow, LosesInAFixedBedThePressureOfTheDragLawAndLiftsItsLowestGrainsToo) {
-  struct Expected {
-    coupling::DragLaw law;
-    Formulation formulation;
-    double drop;
-  };
-  for (const auto& [law, formulation, drop] :
-       {Expected{coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_a, 2152},
-        Expected{coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_b, 0.4 * 2152},
-        Expected{coupling::DragLaw::ergun_wen_yu, Formulation::model_a, 3849}}) {
+  for (const auto& [law, formulation, drop] : fixed_beds) {
     Parameters p = upwards(0.01);
     p.drag = law, p.formulation = formulation;
     Case c({.count = {2, 2, 16}, .low = {}, .spacing = {h, h, h}}, p);
