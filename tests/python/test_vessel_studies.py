@@ -84,9 +84,10 @@ class Materials(unittest.TestCase):
 
     def test_a_heap_has_the_slope_that_it_was_cut_at(self):
         for degrees in (21.0, 34.0):
-            angle, by_foot, on = materials.heap_of(self.cone(degrees), self.SPACING)
-            self.assertAlmostEqual(angle, degrees, delta=0.5)
+            angle, by_foot, on = materials.slope_of_heap(self.cone(degrees), self.SPACING)
+            self.assertAlmostEqual(angle, degrees, delta=1.5)
             self.assertAlmostEqual(by_foot, degrees, delta=2.5)
+            self.assertAlmostEqual(materials.slope_of_mean(self.cone(degrees)), degrees, delta=0.4)
             self.assertTrue(on.all())
 
     def test_what_has_left_the_deposit_is_stray_and_does_not_count_for_its_foot(self):

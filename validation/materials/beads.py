@@ -54,23 +54,6 @@ def read(path):
     return table[:, 0], table[:, 1:4], table[:, 4:7]
 
 
-def slope_of_deposit(x, spacing):
-    """Degrees: a line through the highest particles of cells of 30 degrees by two spacings, from 0.2 to 0.8 of the foot.
-    \\param x places, from the axis, m"""
-    x = x[materials.deposit(x, spacing)]
-    radius, direction = np.hypot(x[:, 0], x[:, 1]), np.arctan2(x[:, 1], x[:, 0])
-    foot = materials.foot_of(radius, direction, spacing, 12)
-    ring = np.floor((radius - 0.2 * foot) / (2 * spacing)).astype(int)
-    cell = (12 * (direction % (2 * np.pi)) / (2 * np.pi)).astype(int) % 12
-    points = []
-    for n in range(int(0.6 * foot / (2 * spacing))):
-        for k in range(12):
-            here = (ring == n) & (cell == k)
-            if here.any():
-                points.append((0.2 * foot + (2 * n + 1) * spacing, x[here, 2].max()))
-    return np.degrees(np.arctan(-np.polyfit(*np.array(points).T, 1)[0]))
-
-
 def measure(first, last, radius):
     """Numbers of a column by their names in COLUMNS. \\param first, last what read() gives, when the tube goes and at
     rest \\param radius of the column, m"""
@@ -83,7 +66,7 @@ def measure(first, last, radius):
     mass = np.cumsum(r[order] ** 3)
     share = np.hypot(*x[order[np.searchsorted(mass, 0.99 * mass[-1])], :2])
     return {"beads": len(first[0]), "aspect": height / radius, "packing": packing, "runout": foot / radius - 1,
-            "height": top / radius, "slope": slope_of_deposit(x, DIAMETER), "runout_99": share / radius - 1,
+            "height": top / radius, "slope": materials.slope_of_heap(x, DIAMETER)[0], "runout_99": share / radius - 1,
             "stray": materials.stray_share(x, velocity, on, DIAMETER)}
 
 
@@ -106,7 +89,7 @@ def law(options):
         of, _ = materials.measure_run(run_, "column", 1.0)
         box = run_.case["box"]
         x = np.asarray(run_.snapshots[-1].positions) - 0.5 * np.array([box["width"], box["depth"], 0])
-        slope = slope_of_deposit(x, 1e-3 * materials.spacing_of("column", 1.0))
+        slope, _, _ = materials.slope_of_heap(x, 1e-3 * materials.spacing_of("column", 1.0))
         print(f"| {name} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {slope:.1f} | "
               f"{of['stray']:.3g} |")
 

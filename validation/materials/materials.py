@@ -17,7 +17,6 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "drum")]
 import study  # noqa: E402
 import talus  # noqa: E402
-from talus import heap  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 SETUP, BANDS = REFERENCE["setup"], REFERENCE["bands"]
@@ -107,13 +106,32 @@ def round_deposit(x, spacing, column):
     return foot_of(radius, direction, spacing, 36), x[on, 2][axis].max() + 0.5 * spacing, on
 
 
-def heap_of(x, spacing):
+def slope_of_heap(x, spacing):
     """Angle of the flanks, that of height over foot, both in degrees, and which particles belong to the heap. \\param x places, from
     the axis, m"""
     on = deposit(x, spacing)
-    radius, direction = np.hypot(x[on, 0], x[on, 1]), np.arctan2(x[on, 1], x[on, 0])
-    height = x[on, 2][radius < 3 * spacing].max() + 0.5 * spacing
-    return heap.slope_of(x[on]), np.degrees(np.arctan(height / foot_of(radius, direction, spacing, 12))), on
+    x = x[on]
+    radius, direction = np.hypot(x[:, 0], x[:, 1]), np.arctan2(x[:, 1], x[:, 0])
+    foot = foot_of(radius, direction, spacing, 12)
+    ring = np.floor((radius - 0.2 * foot) / (2 * spacing)).astype(int)
+    cell = (12 * (direction % (2 * np.pi)) / (2 * np.pi)).astype(int) % 12
+    points = []
+    for n in range(int(0.6 * foot / (2 * spacing))):
+        for k in range(12):
+            here = (ring == n) & (cell == k)
+            if here.any():
+                points.append((0.2 * foot + (2 * n + 1) * spacing, x[here, 2].max() + 0.5 * spacing))
+    slope = np.polyfit(*np.array(points).T, 1)[0]
+    height = x[radius < 3 * spacing, 2].max() + 0.5 * spacing
+    return np.degrees(np.arctan(-slope)), np.degrees(np.arctan(height / foot)), on
+
+
+def slope_of_mean(x):
+    """Angle of a heap's flanks by all its particles, degrees: a line through twice their heights, whose mean at a distance from the
+    axis is the surface there, from 0.2 to 0.8 of the foot of the cone of the same mean radius. \\param x places, from the axis, m"""
+    radius = np.hypot(x[:, 0], x[:, 1])
+    flank = (radius > 0.4 * radius.mean()) & (radius < 1.6 * radius.mean())
+    return np.degrees(np.arctan(-np.polyfit(radius[flank], 2 * x[flank, 2], 1)[0]))
 
 
 def angle_of_drum(run, spacing):
@@ -147,8 +165,9 @@ def measure_run(run, kind, ratio):
         x[:, :2] -= 0.5 * np.array([run.case["box"]["width"], run.case["box"]["depth"]])
         distance = np.hypot(x[:, 0], x[:, 1])
         if kind == "heap":
-            angle, by_foot, on = heap_of(x, spacing)
-            return {"heap": angle, "by-foot": by_foot, "stray": stray_share(x, velocity, on, spacing)}, None
+            angle, by_foot, on = slope_of_heap(x, spacing)
+            return {"heap": angle, "by-foot": by_foot, "by-mean": slope_of_mean(x[on]),
+                    "stray": stray_share(x, velocity, on, spacing)}, None
         foot, height, on = round_deposit(x, spacing, size)
     edges = np.arange(0, foot + spacing, 2 * spacing)
     ring = np.digitize(distance, edges)
@@ -166,13 +185,13 @@ def measure(options):
             of, profile = measure_run(talus.Run(options.out / folder), kind, ratio)
             stray.append(of.pop("stray", 0))
             if kind == "heap":
-                heaps.append((of.pop("heap"), of.pop("by-foot")))
+                heaps.append((of.pop("heap"), of.pop("by-foot"), of.pop("by-mean")))
             if profile:
                 found["profiles"].append((material, kind, *profile))
             numbers |= {f"{material} {name}": value for name, value in of.items()}
         if heaps:
             found["heaps"][material] = heaps
-            numbers[f"{material} heap"] = np.mean([angle for angle, _ in heaps])
+            numbers[f"{material} heap"] = np.mean([heap[0] for heap in heaps])
         numbers[f"{material} stray"] = max(stray)
     found["without-band"] = {name: numbers.pop(name) for name in list(numbers) if name not in ROWS}
     return numbers, found
@@ -181,8 +200,8 @@ def measure(options):
 def tell(numbers, found):
     lines = [study.table_of_numbers(ROWS, numbers)]
     for material, heaps in found["heaps"].items():
-        angles, by_foot = (", ".join(f"{angle:.1f}" for angle in of) for of in zip(*heaps))
-        lines.append(f"{material}: heaps of {angles} degrees, by height over foot {by_foot}.")
+        angles, by_foot, by_mean = (", ".join(f"{angle:.1f}" for angle in of) for of in zip(*heaps))
+        lines.append(f"{material}: heaps of {angles} degrees, by height over foot {by_foot}, by all particles {by_mean}.")
     for name, value in found["without-band"].items():
         lines.append(f"{name}, no band: {value:.3g}.")
     return "\n".join(lines) + "\n"

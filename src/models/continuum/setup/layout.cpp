@@ -35,13 +35,12 @@ Extent bed_along(const Parameters& p, int axis, double width, const std::optiona
                  const std::optional<double>& last) {
   if (p.bed.given) return {p.bed.given->low[axis] - 0.5 * p.bed.spacing, p.bed.given->high[axis] + 0.5 * p.bed.spacing};
   Extent extent{0, width};
-  if (!p.vessel.empty())
-    if (const VesselBounds around = bounds_of_vessel(p); around.low[axis] > 0 && around.high[axis] < width)
-      extent = {around.low[axis], around.high[axis]};
-    else if (around.low[axis] > 0 && is_side_of_box(p, axis, around.low[axis]))
-      extent.low = around.low[axis];
-    else if (around.high[axis] < width && is_side_of_box(p, axis, around.high[axis]))
-      extent.high = around.high[axis];
+  if (!p.vessel.empty()) {
+    const VesselBounds around = bounds_of_vessel(p);
+    const bool low = around.low[axis] > 0, high = around.high[axis] < width;
+    if (low && (high || is_side_of_box(p, axis, around.low[axis]))) extent.low = around.low[axis];
+    if (high && (low || is_side_of_box(p, axis, around.high[axis]))) extent.high = around.high[axis];
+  }
   return {first.value_or(extent.low), last.value_or(extent.high)};
 }
 
