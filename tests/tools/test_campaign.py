@@ -21,7 +21,7 @@ class Campaign(unittest.TestCase):
         done = attack(PROGRAM, "--only", "kills", "disk", "damage", "hostile")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         rows = done.stdout.splitlines()[1:]
-        self.assertEqual(len(rows), 9, done.stdout)
+        self.assertEqual(len(rows), 10, done.stdout)
         for row in rows:
             count, passed = row[34:].split()[:2]
             self.assertGreater(int(count), 0, row)

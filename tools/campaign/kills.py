@@ -85,7 +85,7 @@ class HopperKills(CloudKills):
 
 
 class LevelsKills(CloudKills):
-    name, full = "kills: particles that split and merge", 100
+    name, full = "kills: particles of levels", 100
     text = LEVELS
 
 

@@ -105,7 +105,7 @@ class OneOfACloudsKilled(OneOfSeveralKilled):
 
 
 class OneOfLevelsKilled(OneOfSeveralKilled):
-    name, full = "kills: one process of several with particles that split and merge", 50
+    name, full = "kills: one process of levels", 50
     text = LEVELS
 
 
