@@ -81,6 +81,41 @@ TEST(DischargeByHand, OfSeveralOutletsIsTheirSum) {
               1e-12);
 }
 
+TEST(DischargeByHand, IsOfTheOutletsThatOpenFirst) {
+  continuum::Parameters p = gated({0.02, 0.046, 0.1}, 0.02, 0.008);
+  const double one = discharge_by_hand(continuum::Layout(p));
+  p.vessel.push_back(p.vessel.front());
+  p.vessel.back().name = "later", p.vessel.back().corner[0] = 0.06, p.vessel.back().opens_after = 2;
+  EXPECT_DOUBLE_EQ(discharge_by_hand(continuum::Layout(p)), one);
+  p.vessel.front().opens_after = 2;
+  EXPECT_DOUBLE_EQ(discharge_by_hand(continuum::Layout(p)), 2 * one);
+}
+
+TEST(CriticalOutletByHand, OfASquarePyramidIsThatOfACone) {
+  continuum::Parameters p = small_silo();
+  granular::CriticalState::Parameters law;
+  law.tensile_strength = 1000;
+  p.law = law;
+  const auto of_cone = critical_outlet_by_hand(continuum::Layout(p));
+  ASSERT_TRUE(of_cone);
+  continuum::VesselPart& hopper = p.vessel[1];
+  hopper.shape = continuum::VesselShape::pyramid;
+  hopper.lower_width = hopper.lower_depth = 2 * hopper.lower_radius;
+  hopper.upper_width = hopper.upper_depth = 2 * hopper.upper_radius;
+  p.vessel[2].shape = continuum::VesselShape::plate;
+  p.vessel[2].corner = {0.05 - hopper.lower_radius, 0.05 - hopper.lower_radius, 0.06};
+  p.vessel[2].first_edge = {2 * hopper.lower_radius, 0, 0}, p.vessel[2].second_edge = {0, 2 * hopper.lower_radius, 0};
+  const auto of_pyramid = critical_outlet_by_hand(continuum::Layout(p));
+  ASSERT_TRUE(of_pyramid);
+  EXPECT_DOUBLE_EQ(of_pyramid->width, of_cone->width);
+  hopper.lower_depth = 8 * hopper.lower_radius, hopper.upper_depth = 2 * hopper.upper_radius + 6 * hopper.lower_radius;
+  p.box.depth = 0.4;
+  p.vessel[2].corner[1] = 0.2 - 4 * hopper.lower_radius, p.vessel[2].second_edge[1] = 8 * hopper.lower_radius;
+  const auto of_slot = critical_outlet_by_hand(continuum::Layout(p));
+  ASSERT_TRUE(of_slot);
+  EXPECT_LT(of_slot->width, 0.7 * of_cone->width) << "a wedge's";
+}
+
 TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {
   continuum::Parameters p;
   p.box.width = 0.1, p.box.depth = 5e-3, p.box.height = 0.25;

@@ -66,11 +66,11 @@ Domain domain_of(const Parameters& p) {
   return Domain(box, {}, 0, sector);
 }
 
-/// Whether all of a triangle lies beyond a face of the box whose other side are images: no grain meets it.
-bool is_beyond_images(const Parameters& p, const Triangle& t) {
+/// Whether all of a triangle lies behind a plane of symmetry: no grain meets it.
+bool is_behind_mirror(const Parameters& p, const Triangle& t) {
   const FaceKind kinds[] = {p.box.left, p.box.right, p.box.front, p.box.rear};
   for (std::size_t face = 0; face < std::size(kinds); ++face) {
-    if (p.box.sector || (kinds[face] != FaceKind::symmetry && kinds[face] != FaceKind::periodic)) continue;
+    if (p.box.sector || kinds[face] != FaceKind::symmetry) continue;
     const int axis = static_cast<int>(face / 2);
     const double end = axis == 0 ? p.box.width : p.box.depth;
     if (std::all_of(t.corner.begin(), t.corner.end(),
@@ -85,7 +85,7 @@ Surface surface_of(const Parameters& p) {
   std::vector<Triangle> triangles;
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     for (const Triangle& t : triangles_of(p, n))
-      if (!is_beyond_images(p, t)) triangles.push_back(t);
+      if (!is_behind_mirror(p, t)) triangles.push_back(t);
   return Surface(std::move(triangles), p.vessel.size());
 }
 
