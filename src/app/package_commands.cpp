@@ -149,9 +149,7 @@ Json members_of(CaseFile file, const Texts& settings, const std::filesystem::pat
       file.set(own.back());
       of_member /= fmt::format("seed_{:04}", seed);
     }
-    CaseFile case_of_member = file;
-    if (resume) keep_snapshot_interval(case_of_member, of_member);
-    const PreparedCase prepared = prepare_case(case_of_member);
+    const PreparedCase prepared = resume ? prepare_to_resume(file, of_member) : prepare_case(file);
     members.push_back({{"seed", seed},
                        {"settings", own},
                        {"folder", of_member.string()},

@@ -41,10 +41,14 @@ void print_warnings(const PreparedCase& prepared) {
     print("! {}\n", wrapped(warning.text, terminal_width(), 2, 2));
 }
 
+std::filesystem::path folder_of_finer(const RunRequest& coarse) {
+  return std::filesystem::path(coarse.folder) += "-refined";
+}
+
 /// The same case with a finer spacing in the folder beside, and what both say of none.
 ExitStatus run_finer(const PreparedCase& prepared, const RunRequest& coarse) {
   RunRequest request = coarse;
-  request.folder += "-refined";
+  request.folder = folder_of_finer(coarse);
   print("Now with the spacing divided by {}: {}\n", refinement, request.folder.string());
   if (request.existing == Existing::resume && !std::filesystem::exists(RunFolder(request.folder).manifest()))
     request.existing = Existing::refuse;
@@ -63,9 +67,8 @@ PreparedCase prepare_together(const RunOptions& options, const RunRequest& reque
   std::exception_ptr error;
   std::string told;
   try {
-    CaseFile file = options.case_options.read();
-    if (options.resume) keep_snapshot_interval(file, request.folder);
-    prepared = prepare_case(file);
+    const CaseFile file = options.case_options.read();
+    prepared = options.resume ? prepare_to_resume(file, request.folder) : prepare_case(file);
     check_ranks(*prepared, file, ranks.size());
   } catch (const std::exception& fault) {
     error = std::current_exception();
@@ -129,17 +132,17 @@ ExitStatus run(const RunOptions& options, const Ranks& ranks) {
       options.out.empty() ? default_results(options.case_options.path) : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
   if (!ranks.is_alone()) return run_together(options, request, ranks);
-  CaseFile file = options.case_options.read();
-  if (options.resume) keep_snapshot_interval(file, request.folder);
+  const CaseFile file = options.case_options.read();
   const PreparedCase prepared = [&] {
     const run::Waiting waiting("reading and checking the case");
-    return prepare_case(file);
+    return options.resume ? prepare_to_resume(file, request.folder) : prepare_case(file);
   }();
   check_memory(prepared, file);
   print_warnings(prepared);
   if (!options.refine) return run_case(prepared, request);
   const CaseFile finer = refined_case(file);
-  const PreparedCase prepared_finer = prepare_case(finer);
+  const PreparedCase prepared_finer =
+      options.resume ? prepare_to_resume(finer, folder_of_finer(request)) : prepare_case(finer);
   check_memory(prepared_finer, finer);
   const ExitStatus status = run_case(prepared, request);
   return status == ExitStatus::done ? run_finer(prepared_finer, request) : status;

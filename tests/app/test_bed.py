@@ -246,6 +246,20 @@ class NoParticles(BedTest):
         self.talus("report", "run")
         self.talus("run", "case.toml", "--set", "run.end=2 s", "--out", "run", "--resume")
 
+    def test_a_later_end_leaves_what_followed_from_the_first(self):
+        self.write(BIN + INLET.replace('to = "30 ms"\n', "").replace("40 g/s", "10 g/s"))
+        self.talus("run", "case.toml", "--set", "run.end=20 ms", "--out", "run")
+        modulus = r'bulk_modulus = "(\S+) Pa"'
+        case_text = json.loads((self.folder / "run/manifest.json").read_text())["case"]
+        first = re.search(modulus, case_text).group(1)
+        self.talus("run", "case.toml", "--set", "run.end=60 ms", "--out", "run", "--resume")
+        case_text = json.loads((self.folder / "run/manifest.json").read_text())["case"]
+        self.assertEqual(re.search(modulus, case_text).group(1), first)
+        self.talus("run", "case.toml", "--set", "run.end=60 ms", "--out", "whole")
+        case_text = json.loads((self.folder / "whole/manifest.json").read_text())["case"]
+        self.assertNotEqual(re.search(modulus, case_text).group(1), first)
+        self.problems("run", "case.toml", "--set", "run.end=70 ms", "--set", "bed.packing=0.59", "--out", "run", "--resume")
+
     def test_an_empty_bin_is_filled_and_goes_on_with_the_same_bits(self):
         self.write(BIN.replace('bottom = "40 mm"\n' + HEIGHT, "") + INLET)
         self.assertEqual(self.start_of()["bed"], "none: grains come in through inlets only")

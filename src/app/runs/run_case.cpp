@@ -292,17 +292,37 @@ void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks) 
   reader.throw_problems();
 }
 
-void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder) {
-  if (const CaseEntry* given = file.find("output.snapshots")) {
-    const auto* text = std::get_if<std::string>(&given->value.value);
-    const auto interval = text ? parse_quantity(*text) : std::nullopt;
-    if (!interval || interval->value != 0) return;
+namespace {
+
+bool leaves_out_snapshots(const CaseFile& file) {
+  const CaseEntry* given = file.find("output.snapshots");
+  if (!given) return true;
+  const auto* text = std::get_if<std::string>(&given->value.value);
+  const auto interval = text ? parse_quantity(*text) : std::nullopt;
+  return interval && interval->value == 0;
+}
+
+}  // namespace
+
+PreparedCase prepare_to_resume(CaseFile file, const std::filesystem::path& folder) {
+  const std::filesystem::path manifest = RunFolder(folder).manifest();
+  if (!std::filesystem::exists(manifest)) return prepare_case(file);
+  const auto then = resolved_values(read_manifest(manifest).case_text);
+  const auto keep = [&](const std::string& key) {
+    const auto value = then.find(key);
+    if (value != then.end()) file.set(key + "=" + value->second, manifest.string());
+  };
+  if (leaves_out_snapshots(file)) keep("output.snapshots");
+  PreparedCase prepared = prepare_case(file);
+  const auto now = resolved_values(resolved_case(prepared.parameters));
+  bool differs = false;
+  for (const auto& [key, origin] : prepared.filled_in) {
+    if (origin != "bed") continue;
+    const auto before = then.find(key), after = now.find(key);
+    differs = differs || (before != then.end() && after != now.end() && before->second != after->second);
+    keep(key);  // all of them: one that is given may leave out another
   }
-  const RunFolder run(folder);
-  if (!std::filesystem::exists(run.manifest())) return;
-  const auto values = resolved_values(read_manifest(run.manifest()).case_text);
-  if (const auto interval = values.find("output.snapshots"); interval != values.end())
-    file.set("output.snapshots=" + interval->second, run.manifest().string());
+  return differs ? prepare_case(file) : std::move(prepared);
 }
 
 double end_of(const Manifest& manifest) {
