@@ -28,9 +28,9 @@ std::string case_fingerprint(const PreparedCase& prepared);
 /// \throws InputError for a case that so many processes cannot share
 void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks);
 
-/// The case of a run that is to go on in the folder, to an end that may be another: what it leaves out that follows from
-/// run.end, output.snapshots and what depends on all that comes in, keeps the values that it has there.
-/// \throws InputError; FileError if there is a manifest that cannot be read
+/// The case of a run that is to go on in the folder, to an end that may be another: what it leaves out that follows
+/// from run.end, output.snapshots and what depends on all that comes in, keeps the values that it has there. \throws
+/// InputError; FileError if there is a manifest that cannot be read
 PreparedCase prepare_to_resume(CaseFile file, const std::filesystem::path& folder);
 
 /// The end of the run that a manifest describes, s. \throws FileError if it says none
