@@ -306,7 +306,9 @@ bool leaves_out_snapshots(const CaseFile& file) {
 
 PreparedCase prepare_to_resume(CaseFile file, const std::filesystem::path& folder) {
   const std::filesystem::path manifest = RunFolder(folder).manifest();
-  if (!std::filesystem::exists(manifest)) return prepare_case(file);
+  // Neither a link, which run_case() refuses, nor one that is not there.
+  if (std::filesystem::symlink_status(manifest).type() != std::filesystem::file_type::regular)
+    return prepare_case(file);
   const auto then = resolved_values(read_manifest(manifest).case_text);
   const auto keep = [&](const std::string& key) {
     const auto value = then.find(key);
