@@ -220,6 +220,42 @@ class Beds(BedTest):
             self.assertEqual(set(tags), {0, 1})
         self.talus("picture", "run", "--color", "tag", "-o", "tags.png")
 
+    def test_walls_of_the_box_bear_all_beds_or_are_not_told(self):
+        box = """model = "continuum"
+[box]
+width = "80 mm"
+depth = "80 mm"
+height = "120 mm"
+front = "wall"
+rear = "wall"
+[grains]
+density = "2500 kg/m3"
+diameter = "1 mm"
+[bed]
+packing = 0.6
+spacing = "10 mm"
+height = "80 mm"
+[settle]
+damping_time = "5 ms"
+[run]
+end = "30 ms"
+[output]
+pictures = false
+report = false
+"""
+        two = box.replace('height = "80 mm"', 'height = "20 mm"') + '[[beds]]\nbottom = "20 mm"\nheight = "60 mm"\n'
+        side = []
+        for name, text in (("one", box), ("two", two)):
+            self.write(text)
+            self.talus("run", "case.toml", "--out", name)
+            walls = rows(self.folder / name / "analysis/box_walls.csv")
+            self.assertAlmostEqual(float(walls[0]["area [m2]"]), 0.08 * 0.08, delta=1e-9)
+            side.append(float(walls[0]["pressure_at_rest [Pa]"]))
+        self.assertAlmostEqual(side[0], side[1], delta=1e-3 * side[0])
+        self.write(box.replace('height = "80 mm"\n[settle]', 'height = "80 mm"\nrear = "40 mm"\n[settle]'))
+        self.talus("run", "case.toml", "--set", "gate.opens=from-the-start", "--set", "run.end=1 ms", "--out", "half")
+        self.assertFalse((self.folder / "half/analysis/box_walls.csv").exists())
+
     def test_faults_name_the_bed(self):
         self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "44 mm"\nheight = "8 mm"\nheigth = "3 mm"\n[removal]'))
         said = "\n".join(self.problems("check", "case.toml"))
