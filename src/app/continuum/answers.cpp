@@ -27,6 +27,7 @@ using continuum::VesselShape;
 constexpr double hardly = 0.05;     // of the largest pressure on any wall
 constexpr double mass_flow = 0.99;  // of the particles move: measure share_that_moves
 constexpr double arch = 0.3;        // of the bed's packing above the outlet: measure outlet_packing
+constexpr double to_start = 3;      // times (D/g)^(1/2): grains that have not begun to flow by then do not
 
 /// A quantity of the summary; nan if it has none.
 double value_of(const std::vector<NamedValue>& quantities, std::string_view name) {
@@ -107,7 +108,7 @@ class FlowAnswers {
     else if (const double opens = continuum::first_opening(setup_.vessel_outlets); opens > 0 && !(end_ > opens))
       answer.answer = fmt::format("was shut until the end of the run: {}", rest);
     else if (is_cohesive() && has_arch() &&
-             (std::isfinite(stopped) || (!(discharged() > 1e-9) && end_ - opens > time_to_start())))
+             (std::isfinite(stopped) || (!(discharged() > 1e-9) && end_ - opens > to_start * setup_.scales.time)))
       answer.answer =
           fmt::format("arched at {}, over the outlet: {}", std::isfinite(stopped) ? time_text(stopped) : "once", rest);
     else if (std::isfinite(stopped))
@@ -122,10 +123,6 @@ class FlowAnswers {
     return answer;
   }
 
-  /// In which grains fall some outlets' widths: what has not begun to flow by then does not.
-  double time_to_start() const {
-    return 3 * std::sqrt(setup_.outlet_width.value_or(0) / setup_.given.gravity.acceleration);
-  }
   bool is_cohesive() const { return continuum::has_cohesion(setup_.given); }
   bool has_arch() const { return of("outlet_packing") >= arch * setup_.given.bed.packing; }
   /// Higher than what slopes leave beside the outlet.

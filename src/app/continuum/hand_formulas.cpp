@@ -44,28 +44,22 @@ PressureByHand pressure_of_hopper(const SiloShape& shape, const SiloPiece& hoppe
           arcs ? granular::arc_pressure(*arcs, weight, height - apex, end, above) : HopperRun::none};
 }
 
-/// The cone that ends at an outlet.
-const VesselPart* cone_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
+/// The cone that ends at a round outlet, the pyramid that ends at another.
+const VesselPart* hopper_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
   for (const VesselPart& v : p.vessel) {
-    if (!outlet.round || !is_cone(v)) continue;
+    if (outlet.round ? !is_cone(v) : v.shape != continuum::VesselShape::pyramid) continue;
     const Vector3 axis = continuum::on_axis(p, v);
     if (std::abs(v.bottom - outlet.middle.z) <= p.bed.spacing && outlet.is_beside(axis, 0) &&
-        std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) < 0.1 * outlet.width)
+        std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) <
+            0.1 * (outlet.round ? outlet.width : outlet.narrow))
       return &v;
   }
   return nullptr;
 }
 
-/// The pyramid that ends at an outlet.
-const VesselPart* pyramid_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
-  for (const VesselPart& v : p.vessel) {
-    if (outlet.round || v.shape != continuum::VesselShape::pyramid) continue;
-    const Vector3 axis = continuum::on_axis(p, v);
-    if (std::abs(v.bottom - outlet.middle.z) <= p.bed.spacing &&
-        std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) < 0.1 * outlet.narrow)
-      return &v;
-  }
-  return nullptr;
+/// The cone that ends at an outlet.
+const VesselPart* cone_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
+  return outlet.round ? hopper_above(p, outlet) : nullptr;
 }
 
 /// The cone through which the vessel empties.
@@ -138,25 +132,23 @@ double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
 
 std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
-  const VesselPart* cone = emptying_cone(layout);
   if (!continuum::has_cohesion(p)) return std::nullopt;
-  const auto& law = p.law.of<granular::CriticalState>();
-  const double weight = bulk_density(p) * p.gravity.acceleration;
-  if (!layout.vessel_outlets.empty())
-    if (const VesselPart* pyramid = pyramid_above(p, layout.vessel_outlets.front())) {
-      // Of a square outlet as of a round one; of a slot, at least three times as long as wide, as of a wedge.
-      const continuum::VesselOutlet& outlet = layout.vessel_outlets.front();
-      const double opens =
-          0.5 * std::max(pyramid->upper_width - pyramid->lower_width, pyramid->upper_depth - pyramid->lower_depth);
-      return granular::critical_outlet(
-          outlet.length < 3 * outlet.narrow ? granular::HopperShape::cone : granular::HopperShape::wedge,
-          std::atan(opens / (pyramid->top - pyramid->bottom)), friction_of(layout, *pyramid), law, weight);
-    }
-  if (!cone && !p.wedge.half_angle) return std::nullopt;
-  return cone ? granular::critical_outlet(granular::HopperShape::cone, half_angle_of_cone(layout),
-                                          friction_of(layout, *cone), law, weight)
-              : granular::critical_outlet(granular::HopperShape::wedge, *p.wedge.half_angle, p.walls.coefficient, law,
-                                          weight);
+  const auto outlet = [&](granular::HopperShape shape, double half_angle, double friction) {
+    return granular::critical_outlet(shape, half_angle, friction, p.law.of<granular::CriticalState>(),
+                                     bulk_density(p) * p.gravity.acceleration);
+  };
+  if (p.wedge.half_angle) return outlet(granular::HopperShape::wedge, *p.wedge.half_angle, p.walls.coefficient);
+  if (layout.vessel_outlets.empty()) return std::nullopt;
+  const continuum::VesselOutlet& first = layout.vessel_outlets.front();
+  const VesselPart* const hopper = hopper_above(p, first);
+  if (!hopper) return std::nullopt;
+  const double friction = friction_of(layout, *hopper);
+  if (first.round) return outlet(granular::HopperShape::cone, half_angle_of_cone(layout), friction);
+  // Of a square outlet as of a round one; of a slot, at least three times as long as wide, as of a wedge.
+  const double opens =
+      0.5 * std::max(hopper->upper_width - hopper->lower_width, hopper->upper_depth - hopper->lower_depth);
+  return outlet(first.length < 3 * first.narrow ? granular::HopperShape::cone : granular::HopperShape::wedge,
+                std::atan(opens / (hopper->top - hopper->bottom)), friction);
 }
 
 double half_angle_of_cone(const continuum::Layout& layout) {

@@ -21,7 +21,7 @@ class Convection {
   explicit Convection(const FaceApertures& apertures);
 
   /// Fills the ghosts: periodic copies; beyond an open face the velocity within where the air leaves, none where it
-  /// enters; beyond an inflow along it what brings none with the weight of upwind.
+  /// enters; beyond an inflow, of the components along it, what makes the advected one 0 at a given air.upwind.
   void fill_ghosts(Stream& stream, double upwind) const;
 
   /// The forces on rows of faces of an axis, one after another along y, then z: what flows between two of them is found

@@ -46,8 +46,7 @@ std::vector<RegimeLine> regime_of_case(const ModelParameters& p) {
                                     mach > 0.3},
                                    {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
                                     "speed of the walls, of what comes in or of the start times cell over kinematic "
-                                    "viscosity; central convection (air.upwind = 0) "
-                                    "may "
+                                    "viscosity; central convection (air.upwind = 0) may "
                                     "oscillate above 2, most where layers are thin (Patankar 1980)",
                                     p.gas.upwind == 0 && reynolds > 2}};
   if (const double passage = narrowest_passage(p); std::isfinite(passage)) {
