@@ -39,7 +39,7 @@ struct Hopper {
   }
   void deposit() {
     deposition.find_weights(team, position, smoothing_length);
-    deposition.deposit(team, solid_volume, velocity, solids.fraction, solids.flux);
+    deposition.deposit(team, solid_volume, {}, velocity, solids.fraction, solids.flux);
   }
 };
 

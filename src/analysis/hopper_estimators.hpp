@@ -116,7 +116,8 @@ double mean_speed_above(double height, const Snapshot& now, std::span<const doub
 /// The stress across the upright walls of the settled bed over its vertical stress there, of the bands that it fills;
 /// nan without such walls, or without a snapshot of it.
 double wall_pressure_ratio(const HopperRun& run, const Window& window);
-/// Height of the settled bed: half a spacing above its 99.5th percentile, m; nan without a snapshot of it.
+/// Height of the settled bed: half a spacing above its 99.5th percentile, m; nan without a snapshot of it, or if it
+/// falls.
 double settled_top(const HopperRun& run);
 /// Share of the particles above the outlet that move; nan without a snapshot before.
 double share_that_moves(const HopperSnapshot& s);

@@ -80,9 +80,23 @@ bool is_settled_bed_loaded(const Run& run) {
   return std::abs(then - at_opening) <= slack * std::abs(at_opening);
 }
 
+/// Whether walls and floor bear the bed, before the gate opened or, where it had no time to settle, after: not if it
+/// falls.
+bool is_borne(const Run& run) {
+  constexpr double enough = 0.5;
+  const double weight = run.setting.mass() * run.setting.gravity, load = averages(run).load;
+  const auto borne = [&](double from) { return 1 + weight_balance_error(run.series, weight, from, from + load); };
+  const double before = borne(run.gate_time - load), after = borne(run.gate_time);
+  return before >= enough || after >= enough || (std::isnan(before) && std::isnan(after));
+}
+
+/// Of the grains that rest: a stream from an inlet falls faster.
 double top_of_bed(const HopperSnapshot& s) {
+  const double fast = std::sqrt(s.setting.gravity * s.shape().spacing);
+  const auto position = s.now.positions(), velocity = s.now.vectors("velocity");
   std::vector<double> heights;
-  for (const Vector3& x : s.now.positions()) heights.push_back(x.z);
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (!(norm(velocity[i]) > fast)) heights.push_back(position[i].z);
   return heights.empty() ? none : quantile(heights, 0.995) + 0.5 * s.shape().spacing;
 }
 
@@ -104,7 +118,7 @@ double vertical_force_beside_walls(const HopperSnapshot& s) {
 }  // namespace
 
 double settled_top(const HopperRun& run) {
-  return settled(run, top_of_bed);
+  return is_borne(run) ? settled(run, top_of_bed) : none;
 }
 
 double wall_pressure_ratio(const HopperRun& run, const Window&) {

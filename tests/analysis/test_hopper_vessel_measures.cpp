@@ -195,6 +195,11 @@ TEST(HopperVessel, TheRatioOfPressuresIsUnknownWhereNoSnapshotHasTheSettledBed) 
   EXPECT_TRUE(std::isnan(hopper::wall_pressure_ratio(run(-0.05, gate - 0.04), {}))) << "it bears nothing yet";
 }
 
+TEST(HopperVessel, ABedThatNoWallBearsFallsAndHasNoTop) {
+  EXPECT_TRUE(std::isnan(hopper::settled_top(run(0, 1))));
+  EXPECT_FALSE(std::isnan(hopper::settled_top(run(0, 0.1)))) << "borne as the gate opens";
+}
+
 TEST(HopperVessel, TheRatioOfPressuresIsOfTheBandsThatTheBedFills) {
   const HopperRun of = run();
   EXPECT_NEAR(hopper::settled_top(of), 0.175, 1e-9);

@@ -37,9 +37,8 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
-std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, const AirTotals& cells,
-                                      std::size_t particles) {
-  const double solid_volume = s.mass * static_cast<double>(particles) / p.grains.density;
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, const AirTotals& cells, double mass) {
+  const double solid_volume = mass / p.grains.density;
   const AirAround& air = s.air;
   const RegimeLine reynolds{"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
                             "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000};
@@ -154,9 +153,10 @@ Continuum::AtEnd Continuum::find_at_end() const {
   const Share& share = workspace_->share;
   const double bound = setup_->material.range().max_inertial_number;
   double length = infinity, largest = 0;
-  std::uint64_t bearing = 0, above = 0;
+  std::uint64_t bearing = 0, above = 0, units = 0;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (!share.owns(i)) continue;
+    units += s.units_of(i);
     length = std::min(length, workspace_->smoothing_length[i]);
     const double pressure = trace(tensor_at(s.material.stress, i)) / 3;
     largest = std::max(largest, pressure);
@@ -164,13 +164,13 @@ Continuum::AtEnd Continuum::find_at_end() const {
     ++bearing;
     above += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) > bound;
   }
-  Votes votes{.least = {length}, .largest = {largest}, .sum = {bearing, above}};
+  Votes votes{.least = {length}, .largest = {largest}, .sum = {bearing, above, units}};
   ranks_.join(votes);
   const auto sum = [&](std::size_t n) { return static_cast<double>(votes.sum[n]); };
   return {.min_smoothing_length = votes.least[0],
           .max_pressure = votes.largest[0],
           .too_fast = votes.sum[0] > 0 ? sum(1) / sum(0) : 0,
-          .particles = share.of_all(s.position.size())};
+          .mass = s.mass_unit() * sum(2)};
 }
 
 double Continuum::time_origin() const {
@@ -292,10 +292,9 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const AtEnd end = ranks_.is_alone() ? find_at_end() : at_end_;
   const double c = setup_->sound_speed;
   // Of an empty vessel that of the bed's particles.
-  const double h = end.particles == 0 ? workspace_->pairs.smoothing_length(setup_->density) : end.min_smoothing_length;
-  const double step = end.particles == 0
-                          ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c)
-                          : s.last_step;
+  const double h = end.mass == 0 ? workspace_->pairs.smoothing_length(setup_->density) : end.min_smoothing_length;
+  const double step =
+      end.mass == 0 ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c) : s.last_step;
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
   constexpr double max_packing = 0.74, slack = 1.02;
@@ -342,7 +341,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
     lines.push_back(regime_of_collisions(setup_->given.collisions, record));
   if (setup_->given.air.enabled)
     for (RegimeLine& line :
-         regime_of_air(setup_->given, s, ranks_.is_alone() ? find_air_totals() : air_totals_, end.particles))
+         regime_of_air(setup_->given, s, ranks_.is_alone() ? find_air_totals() : air_totals_, end.mass))
       lines.push_back(std::move(line));
   return lines;
 }

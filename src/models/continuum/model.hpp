@@ -105,7 +105,7 @@ class Continuum {
     double min_smoothing_length;  ///< m
     double max_pressure;          ///< without the stress by collisions, Pa
     double too_fast;              ///< share of those that bear a pressure which the law's range leaves out
-    std::size_t particles;
+    double mass;                  ///< kg
   };
   Totals find_totals() const;
   AtEnd find_at_end() const;

@@ -31,7 +31,7 @@ Workspace::Workspace(const Setup& setup, const State& state, const Ranks& ranks)
       load_bands(continuum::load_bands(setup.given, load_fields)),
       load_mesh(mesh_of(boundary.vessel(), load_fields, edge_of_drawn_field * setup.given.bed.spacing)),
       pairs(setup, boundary.domain(), boundary.vessel(), &load_fields),
-      air(setup.given.air.enabled ? std::make_unique<Atmosphere>(setup.given, boundary, share) : nullptr),
+      air(setup.given.air.enabled ? std::make_unique<Atmosphere>(setup.given, levels, boundary, share) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {
   const Parameters& parameters = setup.given;

@@ -220,8 +220,8 @@ void Deposition::for_each_particle(const Block& block, std::size_t first, Body&&
   }
 }
 
-void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
-                         FaceField& flux) const {
+void Deposition::deposit(ThreadTeam& team, double solid_volume, MassRatios ratios, std::span<const Vector3> velocity,
+                         CellField& fraction, FaceField& flux) const {
   // Cells are shared by particles of several blocks, so pairs of the four sums are the tasks. A single thread reads the
   // weights once for all. Sums in fixed point are of no order.
   constexpr double of_fraction = rounding_to(0x1p-50), of_flux = rounding_to(0x1p-44);  // up to 8, and 512 m/s
@@ -235,7 +235,7 @@ void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const 
       for_each_particle(blocks_[b], b * block_size,
                         [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,
                             const float* weight) {
-                          const double amount = share * particle.per_total;
+                          const double amount = share * ratios[i] * particle.per_total;
                           const Vector3& v = velocity[i];
                           const double amounts[] = {amount, amount * v.x, amount * v.y, amount * v.z};
                           if (is_alone)
@@ -257,7 +257,7 @@ std::array<std::size_t, 2> Deposition::rows() const {
   return range;
 }
 
-void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
+void Deposition::distribute(ThreadTeam& team, double solid_volume, MassRatios ratios, const FaceField& per_solid_volume,
                             std::span<Vector3> received) const {
   const CellField &x = per_solid_volume[0], &y = per_solid_volume[1], &z = per_solid_volume[2];
   team.run(blocks_.size(), [&](std::size_t b) {
@@ -266,7 +266,7 @@ void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceFie
                           const float* weight) {
                         const Vector3 sum =
                             sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());
-                        received[i] = solid_volume * particle.per_total * sum;
+                        received[i] = solid_volume * ratios[i] * particle.per_total * sum;
                       });
   });
 }

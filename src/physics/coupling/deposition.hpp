@@ -20,6 +20,7 @@
 #include "base/parallel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/grid/grid.hpp"
+#include "numerics/mass_ratios.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::coupling {
@@ -35,21 +36,21 @@ class Deposition {
   void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
                     std::span<const char> is_left_out = {});
 
-  /// \param solid_volume of each particle, without pores, m^3; the same for all
+  /// \param solid_volume of a particle of mass ratio 1, without pores, m^3
   /// Sums in fixed point, which do not depend on the order of the particles: multiples of 2^-50 (fraction) and 2^-44
   /// m/s, exact up to 2^53 of these.
   /// \param fraction out: solid volume over volume of every cell
   /// \param flux out: by component, that times the solid's velocity, m/s
-  void deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
-               FaceField& flux) const;
+  void deposit(ThreadTeam& team, double solid_volume, MassRatios ratios, std::span<const Vector3> velocity,
+               CellField& fraction, FaceField& flux) const;
 
   /// The first cells of the first and of the last row in which particles have weights, in the grid's order; of none the
   /// first is the larger one.
   std::array<std::size_t, 2> rows() const;
 
-  /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over particles this is the
-  /// cells' volume times `deposit`'s fraction times `per_solid_volume`.
-  void distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
+  /// received[j] = solid_volume * ratios[j] * sum over cells of weight * (per solid volume). Summed over particles this
+  /// is the cells' volume times `deposit`'s fraction times `per_solid_volume`.
+  void distribute(ThreadTeam& team, double solid_volume, MassRatios ratios, const FaceField& per_solid_volume,
                   std::span<Vector3> received) const;
 
   /// Largest size of a vector field's mean over the cells of a particle, by its weights; `at_least` if that is larger.

@@ -40,6 +40,15 @@ inline Parameters moving_bed(int levels) {
   return p;
 }
 
+/// That bed in air.
+inline Parameters moving_bed_in_air(double cell) {
+  Parameters p = moving_bed(1);
+  p.air.enabled = true;
+  p.air.cell = cell;
+  p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
+  return p;
+}
+
 /// A sector of a silo, whose grains fall past its outlet, splitting above it and merging below, until they are taken
 /// away.
 inline Parameters sector_of_levels() {

@@ -265,6 +265,13 @@ TEST(Share, ParticlesOfSeveralSizesThatLieAnywhere) {
   expect_split_and_merged(p, expect_same_bits(p, 40, Shuffled(processes()), true));
 }
 
+TEST(Share, ParticlesOfSeveralSizesInAir) {
+  Parameters p = moving_bed_in_air(spacing / 2);
+  p.bed.velocity = {3, 0, 0};
+  ASSERT_TRUE(is_air_shared(air_grid(p)));
+  expect_split_and_merged(p, expect_same_bits(p, 40, processes(), true));
+}
+
 TEST(Share, ParticlesOfSeveralSizesInASector) {
   const Parameters p = sector_of_levels();
   const State s = expect_same_bits(p, 90, processes(), true);

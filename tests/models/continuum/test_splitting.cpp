@@ -188,8 +188,12 @@ TEST(Splitting, UnequalMassesOfOneSizeGiveWhatEqualMassesGive) {
   }
 }
 
-TEST(Splitting, ARunKeepsItsBitsOnAnyNumberOfThreadsAndWhenItIsResumed) {
-  const Parameters p = moving_bed(1);
+class SplittingRun : public testing::TestWithParam<Parameters> {};
+INSTANTIATE_TEST_SUITE_P(, SplittingRun, testing::Values(moving_bed(1), moving_bed_in_air(2 * spacing)),
+                         [](const auto& of) { return of.param.air.enabled ? "InAir" : "InAVacuum"; });
+
+TEST_P(SplittingRun, KeepsItsBitsOnAnyNumberOfThreadsAndWhenItIsResumed) {
+  const Parameters& p = GetParam();
   ThreadTeam one(1), two(2);
   Continuum a(p), b(p), resumed(p);
   a.begin(one), b.begin(two);
@@ -206,9 +210,10 @@ TEST(Splitting, ARunKeepsItsBitsOnAnyNumberOfThreadsAndWhenItIsResumed) {
   EXPECT_GT(a.state().population.next_identity, made) << "nothing has split meanwhile";
   EXPECT_GT(a.state().merged_energy, 0) << "nothing has merged";
   EXPECT_EQ(Content(a.state()).mass_ratio, 24.0 * 8 * 16);
-  // All momentum that is not gravity's is the floor's.
+  // All momentum that is not gravity's is the floor's or the air's.
   const State& s = a.state();
-  Vector3 given = s.gravity_impulse + s.damping_impulse;
+  EXPECT_EQ(norm(s.air.impulse) > 0.001 * norm(s.gravity_impulse), p.air.enabled);
+  Vector3 given = s.gravity_impulse + s.damping_impulse + s.air.impulse;
   for (const Vector3& received : s.patch_impulse) given -= received;
   const Vector3 began = (s.mass * 24 * 8 * 16) * Vector3{1, 0, 0};
   EXPECT_LT(norm(Content(s).momentum - began - given), 1e-10 * norm(began));

@@ -20,7 +20,7 @@ struct Silo {
   Domain domain;
   Deposition deposition;
   std::vector<Vector3> position, velocity;
-  std::vector<double> smoothing_length;
+  std::vector<double> smoothing_length, mass_ratio;
   CellField fraction;
   FaceField flux;
   double volume = 0.6 * spacing * spacing * spacing;
@@ -44,7 +44,7 @@ struct Silo {
   }
   void deposit() {
     deposition.find_weights(team, position, smoothing_length);
-    deposition.deposit(team, volume, velocity, fraction, flux);
+    deposition.deposit(team, volume, {mass_ratio}, velocity, fraction, flux);
   }
 };
 
@@ -78,6 +78,23 @@ TEST(Deposition, ConservesVolumeAndMomentum) {
   }
 }
 
+TEST(Deposition, AParticleOfEightTimesTheMassCountsEightTimes) {
+  Silo silo;
+  place_at_random(silo, 300);
+  for (std::size_t i = 0; i < 300; ++i) silo.mass_ratio.push_back(i % 3 == 0 ? 8 : 1);
+  silo.deposit();
+  double momentum = 0;
+  for (std::size_t i = 0; i < 300; ++i) momentum += silo.mass_ratio[i] * silo.volume * silo.velocity[i].x;
+  EXPECT_NEAR(total(silo.grid, silo.fraction) / ((100 * 8 + 200) * silo.volume), 1, 1e-13);
+  EXPECT_NEAR(total(silo.grid, silo.flux[0]), momentum, 1e-11 * 300 * silo.volume);
+  FaceField ones = silo.grid.face_field();
+  for (auto& component : ones) std::fill(component.begin(), component.end(), 1.0);
+  std::vector<Vector3> received(300);
+  silo.deposition.distribute(silo.team, silo.volume, {silo.mass_ratio}, ones, received);
+  for (std::size_t i = 0; i < 300; ++i)
+    EXPECT_NEAR(received[i].z, silo.mass_ratio[i] * silo.volume, 1e-12 * silo.volume);
+}
+
 TEST(Deposition, ALongCellHasWhatCellsInARowHaveInItsPlace) {
   for (const FaceKind front : {FaceKind::wall, FaceKind::periodic, FaceKind::open}) {
     Silo silo(front);
@@ -89,7 +106,7 @@ TEST(Deposition, ALongCellHasWhatCellsInARowHaveInItsPlace) {
     CellField fraction = deep.cell_field();
     FaceField flux = deep.face_field();
     deposition.find_weights(silo.team, silo.position, silo.smoothing_length);
-    deposition.deposit(silo.team, silo.volume, silo.velocity, fraction, flux);
+    deposition.deposit(silo.team, silo.volume, {}, silo.velocity, fraction, flux);
     const auto row_mean = [&](const CellField& field, int i, int k) {
       double sum = 0;
       for (int j = 0; j < 4; ++j) sum += field[silo.grid.index(i, j, k)];
@@ -113,7 +130,7 @@ TEST(Deposition, HandsBackWithTheSameWeights) {
   for (auto& component : given)
     for (double& g : component) g = random.normal();
   std::vector<Vector3> received(300);
-  silo.deposition.distribute(silo.team, silo.volume, given, received);
+  silo.deposition.distribute(silo.team, silo.volume, {}, given, received);
   for (int a = 0; a < 3; ++a) {
     const auto& g = given[static_cast<std::size_t>(a)];
     CellField product = silo.fraction;
@@ -174,7 +191,7 @@ TEST(Deposition, OfAParticleThatLeavesTheAirHasTheShareWithinTheBox) {
     std::vector<Vector3> received(1);
     FaceField given = silo.grid.face_field();
     for (auto& component : given) component.assign(component.size(), 1);
-    silo.deposition.distribute(silo.team, silo.volume, given, received);
+    silo.deposition.distribute(silo.team, silo.volume, {}, given, received);
     EXPECT_NEAR(received[0].x / silo.volume, share, 1e-13);  // as much as it gives
   }
   EXPECT_EQ(before, 0);
@@ -211,7 +228,7 @@ TEST(Deposition, TheLargestMeanIsThatOfAllParticlesOrWhatIsKnown) {
     for (const auto& component : given) square[c] += component[c] * component[c];
   }
   std::vector<Vector3> mean(300);
-  silo.deposition.distribute(silo.team, 1, given, mean);
+  silo.deposition.distribute(silo.team, 1, {}, given, mean);
   double largest = 0;
   for (const Vector3& m : mean) largest = std::max(largest, norm(m));
   EXPECT_DOUBLE_EQ(silo.deposition.max_mean(silo.team, given, square, 0), largest);

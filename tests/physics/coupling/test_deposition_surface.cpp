@@ -38,7 +38,7 @@ struct SlantedFloor {
     velocity.resize(position.size());
     const std::vector<double> smoothing_length(position.size(), 1.6 * cell);
     deposition.find_weights(team, position, smoothing_length);
-    deposition.deposit(team, 1e-9, velocity, fraction, flux);
+    deposition.deposit(team, 1e-9, {}, velocity, fraction, flux);
   }
   double total() const {
     double sum = 0;
@@ -78,7 +78,7 @@ TEST(DepositionBesideASurface, FarFromItChangesNothing) {
   const CellField beside = floor.fraction;
   Deposition alone(floor.grid, floor.domain);
   alone.find_weights(floor.team, floor.position, std::vector<double>{1.6 * cell});
-  alone.deposit(floor.team, 1e-9, floor.velocity, floor.fraction, floor.flux);
+  alone.deposit(floor.team, 1e-9, {}, floor.velocity, floor.fraction, floor.flux);
   EXPECT_EQ(beside, floor.fraction);
 }
 

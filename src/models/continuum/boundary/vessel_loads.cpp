@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,11 +22,12 @@ constexpr double height_of_band = 4;  // spacings
 constexpr long max_bands = 12;
 constexpr double level = 0.999;
 
-/// Unit vector down along a wall; none on a level one.
+/// Unit vector down along a wall; none on a level one, whose normal may be rounded.
 Vector3 downwards(const Vector3& normal) {
+  constexpr double rounding = 1e-6;
   const Vector3 down = Vector3{0, 0, -1} + normal.z * normal;
   const double size = norm(down);
-  return size > 0 ? (1 / size) * down : Vector3{};
+  return size > rounding ? (1 / size) * down : Vector3{};
 }
 
 Vector3 along(const Vector3& traction, const Vector3& normal) {
@@ -200,11 +202,16 @@ std::vector<char> far_faces(const Layout& layout, const SurfaceFields& fields) {
   for (std::size_t n = 0; n < fields.count(); ++n) {
     const SurfacePoint& field = fields.all()[n];
     if (layout.given.vessel[field.patch].shape != VesselShape::stl) continue;
-    if (sees_grains(field.place + off * field.normal)) continue;
-    const Vector3 from = field.place - off * field.normal, to = field.place - far * field.normal;
-    const auto crossing = surface.first_crossing(from, to);
-    if (!crossing || surface.triangles()[crossing->triangle].patch != field.patch) continue;
-    is_far[n] = sees_grains(from + crossing->at * (to - from) - off * field.normal);
+    const std::array<Vector3, 2> outwards{field.normal, -1.0 * field.normal};  // a file's normals may be on either side
+    if (std::any_of(outwards.begin(), outwards.end(),
+                    [&](const Vector3& out) { return sees_grains(field.place + off * out); }))
+      continue;
+    is_far[n] = std::any_of(outwards.begin(), outwards.end(), [&](const Vector3& out) {
+      const Vector3 from = field.place + off * out, to = field.place + far * out;
+      const auto crossing = surface.first_crossing(from, to);
+      return crossing && surface.triangles()[crossing->triangle].patch == field.patch &&
+             sees_grains(from + crossing->at * (to - from) + off * out);
+    });
   }
   return is_far;
 }

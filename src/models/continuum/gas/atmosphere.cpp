@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/elementary.hpp"
 #include "base/exact_sum.hpp"
 #include "numerics/grid/loops.hpp"
 
@@ -30,8 +31,9 @@ bool is_air_shared(const Grid& grid) {
   return grid.cells() >= 16384 && grid.count[2] >= 16;
 }
 
-Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary, const Share& share)
-    : boundary_(boundary),
+Atmosphere::Atmosphere(const Parameters& p, const Levels& levels, const Boundary& boundary, const Share& share)
+    : levels_(levels),
+      boundary_(boundary),
       share_(share),
       openings_(boundary.openings()),
       grain_density_(p.grains.density),
@@ -94,13 +96,13 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   watch.reset();
   bring(std::array{&per_solid_volume_[0], &per_solid_volume_[1], &per_solid_volume_[2]});
   received_.resize(s.position.size());
-  deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
+  deposition_.distribute(team, s.mass / grain_density_, s.ratios(), per_solid_volume_, received_);
   for_each(team, received_.size(),
-           [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
+           [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass_of(i) * duration)) * received_[i]; });
   const FixedPoint point(s.impulse_unit / duration);
   FixedVector force = accumulate(
       team, received_.size(), FixedVector{},
-      [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
+      [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass_of(i) * a.acceleration[i]); },
       [](FixedVector one, const FixedVector& other) { return one += other; });
   sum_up(share_.ranks(), std::span(&force, 1));
   a.force = force.value(point);
@@ -109,13 +111,23 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   measure_slip(team, s);
 }
 
+/// Where particles of two sizes meet, kernels of their own widths put 1.16 times the solid volume on the finer side and
+/// 0.84 times on the other. So with levels the width grows with the distance, by at most a few per cent a spacing.
 void Atmosphere::find_weights(ThreadTeam& team, std::span<const double> smoothing_length, const State& s) {
+  if (levels_.count() > 0) {
+    deposited_length_.resize(s.position.size());
+    for_each(team, s.position.size(), [&](std::size_t i) {
+      const double own = cube_root(size_ratio(s.ratios()[i]));
+      deposited_length_[i] = smoothing_length[i] * std::max(1.0, levels_.smooth_spacing(s.position[i]) / own);
+    });
+    smoothing_length = deposited_length_;
+  }
   deposition_.find_weights(team, s.position, smoothing_length, share_.part().is_copy);
 }
 
 /// What the particles of this process put on the cells.
 void Atmosphere::deposit(ThreadTeam& team, State& s) const {
-  deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  deposition_.deposit(team, s.mass / grain_density_, s.ratios(), s.velocity, s.air.solids.fraction, s.air.solids.flux);
 }
 
 /// The deposits of all processes, where this one needs them.

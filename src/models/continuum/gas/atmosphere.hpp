@@ -16,6 +16,7 @@
 #include "models/air/flow.hpp"
 #include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/gas/cell_exchange.hpp"
+#include "models/continuum/setup/levels.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
@@ -44,9 +45,9 @@ struct AirTotals {
 
 class Atmosphere {
  public:
-  /// \param boundary outlives the atmosphere; gates opened in it are open to the air from its next step on
-  /// \param share in the particles; outlives it
-  Atmosphere(const Parameters& parameters, const Boundary& boundary, const Share& share);
+  /// All but the parameters outlive the atmosphere. \param boundary gates opened in it are open to the air from its
+  /// next step on \param share in the particles
+  Atmosphere(const Parameters& parameters, const Levels& levels, const Boundary& boundary, const Share& share);
 
   /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
@@ -87,6 +88,7 @@ class Atmosphere {
   void leave_overfull(air::Solids& solids);
   void measure_slip(ThreadTeam& team, State& state);
 
+  const Levels& levels_;
   const Boundary& boundary_;
   const Share& share_;
   int openings_;  // known to the air
@@ -101,7 +103,8 @@ class Atmosphere {
   coupling::Deposition deposition_;
   air::AirFlow flow_;
   CellExchange exchange_;
-  FaceField per_solid_volume_;  // of cells: impulse, then slip
+  std::vector<double> deposited_length_;  // with levels: smoothing lengths of deposition, m
+  FaceField per_solid_volume_;            // of cells: impulse, then slip
   CellField slip_square_;
   std::vector<Vector3> received_;
   double max_step_ = 0;

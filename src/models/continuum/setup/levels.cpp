@@ -71,7 +71,8 @@ Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.leve
   }
 }
 
-int Levels::wanted(const Vector3& x, double slack) const {
+/// To the nearest of the regions, m^2.
+double Levels::square_of_distance(const Vector3& x) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Region& region : regions_) {
     double square = 0;
@@ -81,6 +82,11 @@ int Levels::wanted(const Vector3& x, double slack) const {
     }
     least = std::min(least, square);
   }
+  return least;
+}
+
+int Levels::wanted(const Vector3& x, double slack) const {
+  const double least = square_of_distance(x);
   int level = 0;
   for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
   if (!sector_) return level;
@@ -88,6 +94,12 @@ int Levels::wanted(const Vector3& x, double slack) const {
   const double arc = (level > 0 ? when_coarse : 1) * sector_->radius(x) * angle_of(*sector_) / (slack * spacing_.x);
   while (level > lightest_level && arc < std::ldexp(1.0, level)) --level;
   return level;
+}
+
+double Levels::smooth_spacing(const Vector3& x) const {
+  if (count_ == 0) return 1;
+  const double over = std::sqrt(square_of_distance(x)) / distance_;
+  return std::min(over < 1 ? 1 + over : 2 * over, std::exp2(count_));
 }
 
 std::array<std::int64_t, 3> Levels::cell_of(const Vector3& x, int level) const {
@@ -186,7 +198,6 @@ std::vector<Problem> check_levels(const Parameters& p) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       refuse(!((*p.levels.low)[axis] <= (*p.levels.high)[axis]), "levels.high", "is below levels.low along an axis",
              "at least levels.low along each axis");
-  refuse(p.air.enabled, "levels.count", "the air takes up particles of one size only", "0 with air");
   refuse(p.sph.smoothing == Smoothing::fixed, "sph.smoothing", "fixed, and particles have several sizes",
          "local with levels");
   refuse(stress_regularisation(p) > 0, "sph.stress_regularisation", "not summed over particles of several sizes yet",

@@ -92,6 +92,9 @@ class Levels {
   int wanted(const Vector3& x, double slack = 1) const;
   /// Factor of those distances beyond which particles merge: what has split just now does not merge at once.
   static constexpr double slack_of_merging = 1.15;
+  /// A spacing over bed.spacing, at least half of that of the level wanted, which grows with the distance without a
+  /// jump: 2, 4, 8 where levels begin.
+  double smooth_spacing(const Vector3& x) const;
   /// The number of the cell in which particles of a level merge: of twice its spacing, of bed.spacing below level 0, on
   /// the lattice of the bed, about the axis of a sector one of a ring.
   std::array<std::int64_t, 3> cell_of(const Vector3& x, int level) const;
@@ -99,6 +102,7 @@ class Levels {
   Vector3 middle_of(const std::array<std::int64_t, 3>& cell, int level) const;
 
  private:
+  double square_of_distance(const Vector3& x) const;
   Vector3 size_of_cell(int level) const;
   double places_in_ring(std::int64_t ring) const;
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/level_cases.hpp"
 
 namespace talus::continuum {
 namespace {
@@ -36,6 +37,29 @@ TEST(Atmosphere, WhatTheAirGaveIsWhatTheGrainsReceived) {
     EXPECT_GT(norm(s.air.impulse), 0.01 * norm(s.gravity_impulse));
     EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
   }
+}
+
+/// Kernels of the particles' own widths put 16 % more and less on the two sides.
+TEST(Atmosphere, TheSolidFractionIsEvenAcrossLevels) {
+  Parameters p = bed_of_levels(1);
+  p.bed.height = p.box.height = 24 * spacing;
+  p.levels.distance = 8 * spacing;
+  p.levels.low = {0, 0, 0};
+  p.levels.high = {4 * spacing, 8 * spacing, 24 * spacing};
+  p.air.enabled = true;
+  p.air.cell = spacing;
+  ThreadTeam team(1);
+  const Continuum model = started(p, team);
+  const State& s = model.state();
+  double least = 1, most = 0;
+  for (int i = 0; i < 24; ++i) {
+    double mean = 0;
+    for (int j = 0; j < 8; ++j)
+      for (int k = 8; k < 16; ++k) mean += s.air.solids.fraction[s.air.grid.index(i, j, k)] / 64;
+    least = std::min(least, mean / p.bed.packing), most = std::max(most, mean / p.bed.packing);
+  }
+  EXPECT_GT(least, 0.94);
+  EXPECT_LT(most, 1.06);
 }
 
 /// Air and grains together, in a closed periodic box without viscosity and gravity.

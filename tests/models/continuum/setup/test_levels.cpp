@@ -46,6 +46,19 @@ TEST(Levels, EachBeginsAtTwiceTheDistanceOfTheOneBefore) {
   EXPECT_EQ(at(100), 3);
 }
 
+TEST(Levels, TheSmoothSpacingHasThatOfALevelWhereItBegins) {
+  const Parameters p = bed_of_levels(2);
+  const Levels levels{Layout(p)};
+  const auto at = [&](double spacings) { return levels.smooth_spacing({(8 + spacings) * spacing, 0, 0}); };
+  EXPECT_EQ(at(-1), 1);
+  EXPECT_NEAR(at(1), 1.5, 1e-12);
+  EXPECT_NEAR(at(2), 2, 1e-12);
+  EXPECT_NEAR(at(3), 3, 1e-12);
+  EXPECT_NEAR(at(4), 4, 1e-12);
+  EXPECT_EQ(at(9), 4);
+  EXPECT_EQ(Levels(Layout(bed_of_levels(0))).smooth_spacing({}), 1);
+}
+
 TEST(Levels, OfASlitReachAroundAllOfIt) {
   Parameters p = bed_of_levels(1);
   p.levels.low = p.levels.high = std::nullopt;
