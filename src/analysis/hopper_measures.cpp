@@ -42,6 +42,16 @@ bool comes_or_goes(const Run& run) {
 bool outlet_and_bin(const Run& run) {
   return outlet(run) && bin(run);
 }
+/// Whether heaps are the same along y, over which their surface is a mean: not in a vessel in space without a slit.
+bool is_plane(const Run& run) {
+  return run.setting.section.empty() || run.setting.outlet_length > 0;
+}
+bool plane_bin(const Run& run) {
+  return is_plane(run) && bin(run);
+}
+bool plane_outlet(const Run& run) {
+  return is_plane(run) && outlet(run);
+}
 
 /// The last value of a column of the series; 0 if there is none.
 double last(const Run& run, const char* column) {
@@ -103,22 +113,22 @@ const std::vector<Row> of_grains = {
     Row("repose_angle_bin", "deg",
         "angle of repose in the bin. Surface: packing 0.3, mean over y, one height each h. Slope: rises or falls all "
         "along (5-point mean), longer than 10 h; the line through its middle 80 %. Mean of the longest slopes left and "
-        "right of the middle",
-        at(repose_angle_in<Where::bin, &ReposeAngle::mean>), {bin}),
+        "right of the middle. Not in a vessel in space, whose heaps are round",
+        at(repose_angle_in<Where::bin, &ReposeAngle::mean>), {plane_bin}),
     Row("repose_angle_bin_steepest", "deg", "the steepest slope in the bin",
-        at(repose_angle_in<Where::bin, &ReposeAngle::steepest>), {bin}),
+        at(repose_angle_in<Where::bin, &ReposeAngle::steepest>), {plane_bin}),
     Row("repose_angle_hopper", "deg", "as repose_angle_bin, of the heaps that stay in the hopper",
-        at(repose_angle_in<Where::hopper, &ReposeAngle::mean>), {outlet}),
+        at(repose_angle_in<Where::hopper, &ReposeAngle::mean>), {plane_outlet}),
     Row("repose_angle_hopper_steepest", "deg", "the steepest slope in the hopper",
-        at(repose_angle_in<Where::hopper, &ReposeAngle::steepest>), {outlet}),
+        at(repose_angle_in<Where::hopper, &ReposeAngle::steepest>), {plane_outlet}),
     Row("surface_angle_bin", "deg",
         "slope of the bin's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
         "and its right half",
-        at(surface_angle_in<Where::bin>), {bin}),
+        at(surface_angle_in<Where::bin>), {plane_bin}),
     Row("surface_angle_hopper", "deg",
         "slope of the hopper's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
         "and its right half, mean over the window",
-        mean_of(surface_angle_in<Where::hopper>), {outlet, while_it_flows}),
+        mean_of(surface_angle_in<Where::hopper>), {plane_outlet, while_it_flows}),
     Row("weight_balance_error", "1", "upward force of all walls, from their impulses over T, over M g, less 1",
         {balance_error}, {always}),
     Row("quiescent_speed", "m/s",

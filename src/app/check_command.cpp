@@ -159,9 +159,21 @@ double seconds_of(const Forecast& forecast, double evaluation) {
   return seconds;
 }
 
-double measured_seconds(const PreparedCase& prepared, int threads) {
+/// Seconds of an evaluation; nothing if those that were tried end in numerical trouble, whose text is kept.
+std::optional<double> measured_evaluation(const PreparedCase& prepared, int threads, std::string* trouble = nullptr) {
   ThreadTeam team(threads);
-  return seconds_of(prepared.forecast, prepared.measure_evaluation(team));
+  try {
+    return prepared.measure_evaluation(team);
+  } catch (const NumericalError& error) {
+    if (trouble) *trouble = error.what();
+    return std::nullopt;
+  }
+}
+
+/// "not known" where steps that were tried fail.
+std::string measured_time(const PreparedCase& prepared, int threads) {
+  const std::optional<double> each = measured_evaluation(prepared, threads);
+  return each ? run::format_seconds(seconds_of(prepared.forecast, *each)) : "not known, its first steps fail";
 }
 
 /// The case with the first of the alternatives that makes it valid, and has no warning that it has not without.
@@ -196,7 +208,7 @@ void print_accuracies(const Subject& s) {
         if (const auto set = prepared.filled_in.find(line.key);
             set != prepared.filled_in.end() && (set->second == "accuracy" || line.key.ends_with(".bulk_modulus")))
           keys.push_back(fmt::format("{} {} {}", line.key, line.value, line.unit));
-      const std::string time = run::format_seconds(measured_seconds(prepared, s.threads));
+      const std::string time = measured_time(prepared, s.threads);
       print("    {}\n", wrapped(fmt::format("{:{}}{}: {}", name, s.key, time, fmt::join(keys, ", ")), terminal_width(),
                                 s.key + 4, 4));
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): such as one that needs bed.spacing
@@ -206,8 +218,8 @@ void print_accuracies(const Subject& s) {
 /// What would shorten the run, each with its forecast, alone.
 void print_shortenings(const Subject& s, double seconds) {
   print("! This run would take {}. Options:\n", run::format_seconds(seconds));
-  const auto option = [](const std::string& change, double time, const std::string& text) {
-    print("    {}\n      {}: {}\n", change, run::format_seconds(time), text);
+  const auto option = [](const std::string& change, const std::string& time, const std::string& text) {
+    print("    {}\n      {}: {}\n", change, time, text);
   };
   std::vector<Shortening> all = s.prepared.shortenings ? s.prepared.shortenings() : std::vector<Shortening>();
   all.push_back({.alternatives = {{fmt::format("run.end={:.4g} s", 0.5 * s.prepared.run.end)}},
@@ -218,17 +230,22 @@ void print_shortenings(const Subject& s, double seconds) {
       for (const std::string& setting : found->first)
         change += fmt::format("{}--set {}", change.empty() ? "" : " \\\n    ",
                               setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
-      option(change, measured_seconds(found->second, s.threads), shortening.text);
+      option(change, measured_time(found->second, s.threads), shortening.text);
     }
   if (const int all_processors = processors(); all_processors > s.threads)
-    option(fmt::format("--threads {}", all_processors), measured_seconds(s.prepared, all_processors),
+    option(fmt::format("--threads {}", all_processors), measured_time(s.prepared, all_processors),
            "all processors of this machine");
 }
 
 void print_forecast(const Subject& s) {
   const Forecast& f = s.prepared.forecast;
-  ThreadTeam team(s.threads);
-  const double each = s.prepared.measure_evaluation(team);
+  std::string trouble;
+  const std::optional<double> measured = measured_evaluation(s.prepared, s.threads, &trouble);
+  if (!measured) {
+    print("\n! No forecast: the first steps of this case fail.\n  {}\n", wrapped(trouble, terminal_width(), 2, 2));
+    return;
+  }
+  const double each = *measured;
   print("\nForecast (from counts and the processor time of a step; {} thread{} without other programs):\n", s.threads,
         s.threads == 1 ? "" : "s");
   double max_seconds = 0;
@@ -269,10 +286,12 @@ void print_start(const Subject& s) {
 
 void print_on_ranks(const Subject& s) {
   if (s.ranks == 1) return;
+  const std::optional<double> each = measured_evaluation(s.prepared, s.threads);
+  if (!each) return;
   ThreadTeam team(s.threads);
   print("\nOn {} processes (modelled from the speed measured on this machine now, {} thread{} each):\n", s.ranks,
         s.threads, s.threads == 1 ? "" : "s");
-  for (const auto& [name, text] : s.prepared.on_ranks(team, s.prepared.measure_evaluation(team), s.ranks))
+  for (const auto& [name, text] : s.prepared.on_ranks(team, *each, s.ranks))
     print("  {:{}}  {}\n", name, s.key, wrapped(text, terminal_width(), s.key + 4, s.key + 4));
 }
 

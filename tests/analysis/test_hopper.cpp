@@ -141,6 +141,10 @@ TEST(Hopper, ASummaryHoldsWhatTheCaseItselfDefines) {
   EXPECT_TRUE(contains(names, "repose_angle_bin"));
   EXPECT_FALSE(contains(names, "particle_reynolds_max")) << "there is no air";
 
+  run.setting.section = {{Vector3{0, 0, 0}, Vector3{0, 0, 1}}};  // a vessel in space
+  EXPECT_FALSE(contains(names_in_summary(run), "repose_angle_bin")) << "a round heap is not the mean of its sections";
+  run.setting.section.clear();
+
   run.setting.has_floor = false;  // what flows out is gone
   names = names_in_summary(run);
   EXPECT_TRUE(contains(names, "residual_fraction"));

@@ -188,8 +188,18 @@ class File(BedTest):
 
     def test_faults_of_case_and_file_are_told_together(self):
         self.lay("x [mm],y [mm]\n28,30\n")
-        said = self.problems("check", "case.toml", "--set", "bed.left=1 mm", "--set", "walls.coefficient=-1")
+        said = self.problems("check", "case.toml", "--set", "box.left=periodic", "--set", "walls.coefficient=-1")
         self.assertEqual(len(said), 3)
+        self.assertRegex(said[0], r"^case\.toml:\d+: bed\.file: .*bed\.csv:1: z: missing column$")
+
+    def test_a_snapshot_of_several_sizes_is_refused(self):
+        fine = ("--set", "levels.count=1", "--set", "levels.distance=4 mm", "--set", "walls.friction=none", "--set",
+                'levels.low=["14 mm", "14 mm", "40 mm"]', "--set", 'levels.high=["20 mm", "46 mm", "44 mm"]')
+        self.talus("run", "case.toml", *fine, "--set", "run.end=1 us", "--out", "first")
+        last = sorted((self.folder / "first/snapshots").glob("particles_*.vtkhdf"))[-1]
+        self.lay("")
+        said = self.problems("check", "case.toml", "--set", f"bed.file={last.relative_to(self.folder)}")
+        self.assertRegex(said[0], "column mass_ratio: particles of several sizes")
 
     def test_a_snapshot_begins_another_run(self):
         self.talus("run", "case.toml", "--set", "run.end=1 ms", "--out", "first")

@@ -59,12 +59,19 @@ inline std::filesystem::path input_path(const CaseFile& file, const std::string&
   return path.is_absolute() ? path : std::filesystem::path(file.name()).parent_path() / path;
 }
 
-/// Calls read(), which reads a file that `key` names. That it cannot be opened is a problem of the case, as any other
-/// value of a key that will not do: exit status 2, with the line of the key. What the file holds is read()'s to judge.
+/// Calls read(), which reads a file that `key` names. That it cannot be opened or read is a problem of the case, as any
+/// other value of a key that will not do: exit status 2, with the line of the key and the place in the file.
 template <class Read>
 void read_input(std::string key, std::vector<Problem>& problems, Read&& read) {
   try {
     std::forward<Read>(read)();
+  } catch (const InputError& error) {
+    for (Problem problem : error.problems()) {
+      Problem place{.where = problem.where, .line = problem.line, .column = problem.column, .key = problem.key};
+      place.what = problem.what;
+      problems.push_back(
+          {.key = key, .what = to_string(place), .allowed = problem.allowed, .nearest = problem.nearest});
+    }
   } catch (const FileError& error) {
     problems.push_back({.key = std::move(key),
                         .what = error.what(),

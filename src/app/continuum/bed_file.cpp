@@ -84,6 +84,12 @@ continuum::GivenBed read_vtkhdf(const std::filesystem::path& path) {
       take(column, "m/s", bed.velocity);
     else if (column.name == "density")
       take(column, "kg/m3", bed.density);
+    else if (const auto* ratio = std::get_if<std::vector<double>>(&column.values);
+             ratio && column.name == "mass_ratio" &&
+             std::any_of(ratio->begin(), ratio->end(), [](double r) { return r != 1; }))
+      problems.push_back({.where = path.string(),
+                          .what = "column mass_ratio: particles of several sizes, whose masses a bed does not keep",
+                          .allowed = "a snapshot of a run without levels and sector"});
     else
       bed.unread.push_back(column.name);
   }

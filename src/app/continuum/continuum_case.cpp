@@ -165,7 +165,7 @@ std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
   return problems;
 }
 
-/// The same of the particles of bed.file. \throws InputError with the faults of the file
+/// The same of the particles of bed.file.
 std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
   std::vector<Problem> problems;
   const CaseEntry* entry = file.find("bed.file");
@@ -194,8 +194,10 @@ struct ContinuumCase : ModelCase<Parameters> {
   std::shared_ptr<const Setup> setup = nullptr;
 };
 
-/// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
-ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
+/// \throws InputError with every problem
+ContinuumCase read_as_it_is(const CaseFile& file) {
+  Parameters defaults;
+  std::vector<Problem> unreadable = read_given_bed(file, defaults);
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), max_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), max_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), max_inlets));
@@ -232,24 +234,6 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
   reader.check(continuum::check_steps(*read.setup, read.run.end));
   reader.throw_problems();
   return read;
-}
-
-/// \throws InputError with every problem
-ContinuumCase read_as_it_is(const CaseFile& file) {
-  Parameters defaults;
-  std::vector<Problem> unreadable, of_file;
-  try {
-    unreadable = read_given_bed(file, defaults);
-  } catch (const InputError& error) {
-    of_file = error.problems();
-  }
-  if (of_file.empty()) return read_as_it_is(file, std::move(defaults), std::move(unreadable));
-  try {
-    read_as_it_is(file, std::move(defaults), {});
-  } catch (const InputError& others) {
-    of_file.insert(of_file.begin(), others.problems().begin(), others.problems().end());
-  }
-  throw InputError(std::move(of_file));
 }
 
 /// \throws InputError with every problem

@@ -134,12 +134,7 @@ std::optional<CaseFile> material_file(const CaseFile& file, std::vector<Problem>
   const std::string* own = own_material(file);
   std::optional<CaseFile> material;
   if (!own) return material;
-  try {
-    read_input(std::string(material_key), problems,
-               [&] { material = CaseFile::read(input_path(file, *own).string()); });
-  } catch (const InputError& error) {  // no TOML
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
+  read_input(std::string(material_key), problems, [&] { material = CaseFile::read(input_path(file, *own).string()); });
   return material;
 }
 
@@ -271,15 +266,19 @@ double speed_of_fall(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
   double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
   low = std::max(low, p.removal.below.value_or(low));
-  const auto speed = [&](double from, const std::array<double, 3>& v) {
-    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 2 * p.gravity.acceleration * std::max(0.0, from - low));
+  const auto speed = [&](double from, double to, const std::array<double, 3>& v) {
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 2 * p.gravity.acceleration * std::max(0.0, from - to));
   };
   double largest = 0;
   if (!layout.has_no_bed()) {
-    largest =
-        speed(layout.outlet ? layout.outlet->height : layout.bottom, p.bed.velocity.value_or(std::array<double, 3>{}));
+    const std::array<double, 3> velocity = p.bed.velocity.value_or(std::array<double, 3>{});
+    largest = speed(layout.outlet ? layout.outlet->height : layout.bottom, low, velocity);
+    const std::vector<continuum::Extent> heights = continuum::heights_of_beds(p);
+    for (std::size_t n = 1; n < heights.size(); ++n)
+      largest = std::max(largest, speed(heights[n].low, heights[n - 1].high, velocity));
   }
-  for (const continuum::Inlet& inlet : p.inlets) largest = std::max(largest, speed(inlet.centre[2], inlet.velocity));
+  for (const continuum::Inlet& inlet : p.inlets)
+    largest = std::max(largest, speed(inlet.centre[2], low, inlet.velocity));
   return largest;
 }
 

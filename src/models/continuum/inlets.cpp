@@ -84,6 +84,11 @@ std::vector<Problem> check_inlets(const Layout& layout) {
     const bool inside =
         x[0] > 0 && x[0] < p.box.width && x[1] > 0 && x[1] < p.box.depth && x[2] > 0 && x[2] < p.box.height;
     if (!inside) refuse(inlet_key(n, "centre"), "is not within the box", "a place within it");
+    if (p.removal.below && x[2] <= *p.removal.below)
+      refuse(inlet_key(n, "centre"),
+             fmt::format("is {:.4g} mm high, and what is below {:.4g} mm is taken away at once", x[2] / millimetre,
+                         *p.removal.below / millimetre),
+             "a place above removal.below");
     if (!(inlet.velocity[2] < 0)) refuse(inlet_key(n, "velocity"), "is not downwards", "a z below 0 m/s");
     if (inlet.to && !(*inlet.to > inlet.from))
       refuse(inlet_key(n, "to"), fmt::format("{:g} s is not after `from`", *inlet.to), "a later time");

@@ -2,6 +2,7 @@
 /// Grains that come and go: [[inlet]], [removal].
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -40,6 +41,12 @@ struct Removal {
 
   bool is_any() const { return below || outside; }
 };
+
+/// Whether grains are still to come in by the clock of the run. \param time s
+inline bool is_being_filled(const std::vector<Inlet>& inlets, double time) {
+  return std::any_of(inlets.begin(), inlets.end(),
+                     [&](const Inlet& inlet) { return inlet.clock == InletClock::start && time < inlet.end(); });
+}
 
 /// The key of the nth of [[inlet]], from 0.
 std::string inlet_key(std::size_t n, std::string_view name);

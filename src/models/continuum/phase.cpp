@@ -34,13 +34,6 @@ void move_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });
 }
 
-/// Whether grains are still to come in of which the case says until when, counted from the start of the run.
-bool is_being_filled(const Parameters& p, double time) {
-  return std::any_of(p.inlets.begin(), p.inlets.end(), [&](const Inlet& inlet) {
-    return inlet.clock == InletClock::start && inlet.to && time < *inlet.to;
-  });
-}
-
 /// How many are beside or below the box around the vessel; those past a periodic face come back at the next list build.
 std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position, const Share& share) {
   VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
@@ -100,7 +93,7 @@ void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, St
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return move_gates(team, p, s, w);
-  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= scales.settled_duration;
+  const bool settled = quiet && !is_being_filled(p.inlets, s.time) && s.time - s.quiet_time >= scales.settled_duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     w.share.join_window(s.wall_loads);

@@ -80,18 +80,31 @@ std::vector<std::size_t> beds_of(const Parameters& p) {
   return beds;
 }
 
+std::vector<Extent> heights_of_beds(const Parameters& p) {
+  std::vector<Extent> all, joined;
+  for (const std::size_t n : beds_of(p)) {
+    const Parameters one = with_bed_alone(p, n);
+    all.push_back({bed_bottom(one), bed_bottom(one) + one.bed.height});
+  }
+  std::sort(all.begin(), all.end(), [](const Extent& a, const Extent& b) { return a.low < b.low; });
+  for (const auto& [low, high] : all) {
+    if (joined.empty() || low > joined.back().high + p.bed.spacing)
+      joined.push_back({low, high});
+    else
+      joined.back().high = std::max(joined.back().high, high);
+  }
+  return joined;
+}
+
 double depth_of_grains(const Parameters& p) {
   if (p.beds.empty() && !beds_of(p).empty()) return p.bed.height;
   if (beds_of(p).empty()) {
     const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
     return std::max(p.bed.spacing, top - bed_bottom(p));
   }
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const std::size_t n : beds_of(p)) {
-    const Parameters one = with_bed_alone(p, n);
-    low = std::min(low, bed_bottom(one)), high = std::max(high, bed_bottom(one) + one.bed.height);
-  }
-  return high - low;
+  double depth = 0;
+  for (const auto& [low, high] : heights_of_beds(p)) depth += high - low;
+  return depth;
 }
 
 std::optional<Outlet> slit_of(const Parameters& p) {

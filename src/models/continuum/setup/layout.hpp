@@ -65,7 +65,7 @@ struct Layout {
   std::vector<std::size_t> beds;  ///< numbers of those that hold particles
   Lattice lattice;
   double bottom = 0;  ///< of the bed, of several the first, m
-  /// How deep grains can lie: the height from the bottom of all beds to their top; without a bed that of vessel or box
+  /// How deep grains can lie: the heights of all beds, without those between them; without a bed that of vessel or box
   /// above the bed's bottom, m.
   double depth = 0;
   /// bed_count(), once it is asked for: of a vessel it takes as long as laying the bed. Copies share it.
@@ -99,6 +99,8 @@ Extent bed_along_x(const Parameters& parameters);
 Extent bed_along_y(const Parameters& parameters);
 double bed_bottom(const Parameters& parameters);
 Lattice lattice_of(const Parameters& parameters);
+/// Lowest and highest places of the beds, m, upwards; beds one upon the other, or beside each other, are one.
+std::vector<Extent> heights_of_beds(const Parameters& parameters);
 /// Layout::depth.
 double depth_of_grains(const Parameters& parameters);
 Parameters with_bed_alone(const Parameters& parameters, std::size_t bed);
