@@ -88,7 +88,7 @@ TEST_F(PointsCsv, ReportsWhatIsWrongWithTheHeader) {
                           HasSubstr(":1: x: missing column"), ":1: radius: missing column"));
   EXPECT_THAT(problems("x;y;z\n1;2;3\n"),
               ElementsAre(HasSubstr("missing column; allowed: columns separated by commas")));
-  EXPECT_THAT(problems("x [1]\n"), ElementsAre(HasSubstr("a length needs a unit of length")));
+  EXPECT_THAT(problems("x [1]\n"), ElementsAre(HasSubstr("needs a unit of length")));
   EXPECT_THAT(problems("\n"), ElementsAre(HasSubstr("has no header line")));
   EXPECT_THAT(message_of<FileError>([&] { read_points_csv(folder_ / "none.csv"); }),
               HasSubstr("none.csv: cannot open: No such file or directory"));
