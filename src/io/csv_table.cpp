@@ -173,7 +173,7 @@ class TableReader {
     std::string digits(entry.substr(entry.starts_with('+') ? 1 : 0));
     if (const std::size_t mark = digits.find_first_of(".,"); mark != std::string::npos && separator_ != ',') {
       if (decimal_mark_ != 0 && decimal_mark_ != digits[mark])
-        problem(column.written_name, fmt::format("'{}' has another decimal mark than lines before", entry),
+        problem(column.written_name, fmt::format("'{}' has another decimal mark than entries before", entry),
                 "one mark, and no thousands");
       decimal_mark_ = digits[mark], digits[mark] = '.';
     }

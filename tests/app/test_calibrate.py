@@ -206,7 +206,7 @@ class Calibrate(ProgramTest):
             self.calibrate(text_of(loci()).replace(",", separator).replace(".", ","))
             self.assertEqual((self.folder / "my-powder.toml").read_text(), first)
         said = self.calibrate(text_of(loci()).replace(",", ";") + "8;1,000;2.1;620\n", status=2)
-        self.assertIn("'1,000' has another decimal mark than lines before", said)
+        self.assertIn("'1,000' has another decimal mark than entries before", said)
 
     def test_loci_stronger_than_the_fit_are_warned_of(self):
         """Pre-shear below the loci: ff_c 1.25 where the law, which ends on them, has 1.75."""
@@ -259,7 +259,7 @@ class Calibrate(ProgramTest):
         self.assertRegex(said, r"critical outlet +arches +arches")
         path.write_text(text + '\n[walls.steel]\nvalue = 0.3\nadhesion = "100 Pa"\n')
         said = self.said("hopper-design", "--material", "my-powder.toml", "--silo-diameter", "6 m", "--silo-height", "12 m")
-        self.assertRegex(said, r"angle of the wall at the outlet +(1[89]|2\d)\.\d deg")
+        self.assertRegex(said, r"angle of the wall at the outlet +30\.\d deg +29\.\d deg")
         self.assertRegex(said, r"! sigma_1 of [\d.]+ kPa: the values of my-powder hold up to 8 kPa")
         said = self.said("hopper-design", "--material", "glass-beads")
         self.assertIn("below 30 deg the closed forms are", " ".join(said.split()))

@@ -64,7 +64,7 @@ TEST(ParseQuantity, ReadsTheUnitsOfTheTrade) {
   EXPECT_DOUBLE_EQ(value_of("62.4 lb/ft3"), 62.4 * 0.45359237 / (0.3048 * 0.3048 * 0.3048));
   EXPECT_EQ(value_of("1 psi"), 6894.757293168361336722673445346890693781);
   EXPECT_EQ(value_of("1 lbf"), 4.4482216152605);
-  EXPECT_EQ(value_of("1 psf"), 47.88025898033584);
+  EXPECT_EQ(value_of("1 psf"), 47.880258980335842616);
   EXPECT_DOUBLE_EQ(value_of("1 lbf/ft2"), value_of("1 psf"));
   EXPECT_EQ(value_of("144 psf"), value_of("1 psi"));
   EXPECT_EQ(value_of("0.62 g/cc"), 620);
