@@ -154,6 +154,7 @@ void print_discharge(const DesignInput& input, const Design& design) {
   const double density = bulk_density(p), gravity = p.gravity.acceleration, d = p.grains.diameter;
   const auto johanson = [&](std::size_t n, double length) {
     if (!design.is_mass_flow(n)) return std::string("funnel");
+    if (input.outlet > design.outlet[n].widest) return std::string("arches");
     return rate_text(granular::johanson_discharge(shapes[n], design.half_angle[n], input.outlet, length, density,
                                                   gravity, design.outlet[n].width),
                      HopperRun::none);
