@@ -111,32 +111,6 @@ std::string width_text(double width) {
   return width > 0 ? std::isinf(width) ? "arches" : length_text(width) : "any";
 }
 
-/// A hopper of each shape, by Jenike.
-struct Design {
-  std::array<double, 2> internal, limit, half_angle;  // delta of the limit
-  std::array<granular::CriticalOutlet, 2> outlet;
-
-  bool is_mass_flow(std::size_t n) const { return half_angle[n] <= limit[n]; }
-};
-
-Design designed(const DesignInput& input, double weight) {
-  const double wall = input.grains.walls.coefficient;
-  Design design;
-  for (std::size_t n = 0; n < shapes.size(); ++n) {
-    double& internal = design.internal[n] = std::atan(input.law.static_friction);
-    // The angle of friction falls with the stress at the outlet, whose width depends on the half angle.
-    for (int pass = 0;; ++pass) {
-      design.limit[n] = granular::mass_flow_half_angle(shapes[n], wall, internal);
-      design.half_angle[n] = input.half_angle > 0 ? input.half_angle : std::max(design.limit[n] - margin, 1 * degree);
-      design.outlet[n] = granular::critical_outlet(shapes[n], design.half_angle[n], wall, input.law, weight);
-      if (!input.law.has_cohesion() || pass == 50) break;
-      internal += 0.5 * (design.outlet[n].effective_angle - internal);
-    }
-    if (!(input.half_angle > 0) && design.limit[n] <= margin) design.half_angle[n] = of_funnel;
-  }
-  return design;
-}
-
 /// The friction of a wall with its adhesion at the outlet, of which the stress follows; without a stress that of the
 /// wall alone. The stress on the wall is that of Mohr's circle of sigma_1, as of granular::flow_factor().
 double friction_there(const DesignInput& input, const granular::CriticalOutlet& outlet) {
@@ -147,6 +121,36 @@ double friction_there(const DesignInput& input, const granular::CriticalOutlet& 
                wall = std::min(std::atan(walls.coefficient), outlet.effective_angle);
   const double turned = wall + std::asin(std::min(std::sin(wall) / sine, 1.0));
   return walls.coefficient + walls.adhesion * (1 + sine) / (major * (1 + sine * std::cos(turned)));
+}
+
+/// A hopper of each shape, by Jenike.
+struct Design {
+  std::array<double, 2> internal, limit, there, half_angle;  // delta; limits of mass flow without, with adhesion
+  std::array<granular::CriticalOutlet, 2> outlet;
+  bool has_outlet = false;  // as wide as said: then the limit with adhesion there counts
+
+  double most(std::size_t n) const { return has_outlet ? there[n] : limit[n]; }
+  bool is_mass_flow(std::size_t n) const { return half_angle[n] <= most(n); }
+};
+
+Design designed(const DesignInput& input, double weight) {
+  const double wall = input.grains.walls.coefficient;
+  Design design;
+  design.has_outlet = input.outlet > 0;
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    double& internal = design.internal[n] = std::atan(input.law.static_friction);
+    // The angle of friction falls with the stress at the outlet, whose width depends on the half angle.
+    for (int pass = 0;; ++pass) {
+      design.limit[n] = granular::mass_flow_half_angle(shapes[n], wall, internal);
+      design.there[n] = granular::mass_flow_half_angle(shapes[n], friction_there(input, design.outlet[n]), internal);
+      design.half_angle[n] = input.half_angle > 0 ? input.half_angle : std::max(design.most(n) - margin, 1 * degree);
+      design.outlet[n] = granular::critical_outlet(shapes[n], design.half_angle[n], wall, input.law, weight);
+      if (!input.law.has_cohesion() || pass == 50) break;
+      internal += 0.5 * (design.outlet[n].effective_angle - internal);
+    }
+    if (!(input.half_angle > 0) && design.most(n) <= margin) design.half_angle[n] = of_funnel;
+  }
+  return design;
 }
 
 void print_discharge(const DesignInput& input, const Design& design) {
@@ -231,17 +235,13 @@ void print_half_angles(const DesignInput& input, const Design& design) {
   both("half angle of mass flow, at most", design.limit,
        "Jenike 1964, closed forms of Arnold & McLean; a slot three times as long as wide");
   if (const double adhesion = input.grains.walls.adhesion; adhesion > 0) {
-    std::array<double, 2> wall = {}, most = {};
-    for (std::size_t n = 0; n < shapes.size(); ++n) {
-      const double friction = friction_there(input, design.outlet[n]);
-      wall[n] = std::atan(friction);
-      most[n] = granular::mass_flow_half_angle(shapes[n], friction, design.internal[n]) / degree;
-    }
-    both(
-        "angle of the wall at the outlet", wall,
-        fmt::format("atan(mu + a_w/sigma), adhesion a_w = {}: half angles of {:.1f} and {:.1f} deg at most there; that "
-                    "above holds where a_w is small against the stress sigma on the wall",
-                    pressure_text(adhesion), most[0], most[1]));
+    const std::array<double, 2> wall = {std::atan(friction_there(input, design.outlet[0])),
+                                        std::atan(friction_there(input, design.outlet[1]))};
+    both("angle of the wall at the outlet", wall,
+         fmt::format("atan(mu + a_w/sigma), adhesion a_w = {}, sigma the stress on the wall", pressure_text(adhesion)));
+    both("half angle there, at most", design.there,
+         design.has_outlet ? "by that angle: what counts"
+                           : "by that angle; that above holds where a_w is small against sigma; --outlet says");
   }
   std::string source = input.half_angle > 0 ? "as given" : "3 deg less, as practice has it";
   for (const std::size_t n : {0u, 1u})
