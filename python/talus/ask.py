@@ -8,6 +8,7 @@
     measures    {}                                                   quantities of summaries: name, unit, may_be_missing
     numbers     {"runs": [{"folder", "questions"}]}                  quantities of runs over windows of time
     points      {"file"}                                             columns of points as CSV: name, unit, values
+    material    {"file"}                                             true: a material file that a case may name
     yield-loci  {"file"}                                             yield loci of a shear tester, checked and evaluated
     wall-locus  {"file"}                                             points of a wall yield locus
     report      {"path", "title", "runs", "comparisons"}             the page of runs

@@ -38,12 +38,17 @@ std::vector<double> numbers_of(const std::string& option, const std::string& tex
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
     const std::string word = text.substr(from, comma - from);
-    const auto quantity = parse_quantity(word);
+    std::string why;
+    const auto quantity = parse_quantity(word, &why);
     if (quantity && quantity->dimension == unit && quantity->value > 0 && quantity->value < below)
       numbers.push_back(quantity->value);
     else
       problems.push_back({.where = fmt::format("{} {}", option, text),
-                          .what = fmt::format("\"{}\" is out of place", word),
+                          .what = fmt::format("\"{}\" {}", word,
+                                              !quantity                                ? why
+                                              : quantity->dimension == unit            ? "is out of range"
+                                              : quantity->dimension == dimension::none ? "has no unit"
+                                                                                       : "has another unit"),
                           .allowed = allowed});
     from = comma + 1;
   }

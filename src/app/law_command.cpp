@@ -90,6 +90,7 @@ ExitStatus follow(const LawOptions& options) {
   for (const std::filesystem::path& drawn : draw_charts({"law", folder.string()}, folder))
     files += ", " + drawn.filename().string();
 
+  print("{:18} {}\n", "law", choice_name(parameters.law.name));
   for (const NamedValue& quantity : quantities_of(path))
     print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
   print("{}: {}\n", folder.string(), files);

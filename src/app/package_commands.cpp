@@ -18,6 +18,7 @@
 #include "analysis/measure.hpp"
 #include "app/commands.hpp"
 #include "app/law/shear_data.hpp"
+#include "app/materials/materials.hpp"
 #include "app/models/models.hpp"
 #include "app/project/project.hpp"
 #include "app/report/report.hpp"
@@ -117,6 +118,13 @@ Json wall_locus(const Json& question) {
   for (const granular::YieldPoint& point : read_wall_data(question.at("file").get<std::string>()))
     points.push_back({point.normal, point.shear});
   return points;
+}
+
+/// Of {"file"}, a material: true. \throws InputError with what a case that names it would be refused for
+Json material(const Json& question) {
+  const std::vector<Problem> problems = problems_of_material(question.at("file").get<std::string>());
+  if (!problems.empty()) throw InputError(problems);
+  return true;
 }
 
 /// The quantities of summaries: {"name", "unit", "may_be_missing"} of all models.
@@ -259,16 +267,10 @@ struct Question {
   std::string_view name;
   Json (*answer)(const Json& question);
 };
-constexpr Question questions[] = {{"plan", plan},
-                                  {"begin", begin},
-                                  {"claim", claim},
-                                  {"points", points},
-                                  {"measures", measures},
-                                  {"quantities", quantities},
-                                  {"numbers", numbers},
-                                  {"report", report},
-                                  {"yield-loci", yield_loci},
-                                  {"wall-locus", wall_locus}};
+constexpr Question questions[] = {
+    {"plan", plan},         {"begin", begin},           {"claim", claim},          {"points", points},
+    {"measures", measures}, {"quantities", quantities}, {"numbers", numbers},      {"report", report},
+    {"material", material}, {"yield-loci", yield_loci}, {"wall-locus", wall_locus}};
 
 ExitStatus answer_question() {
   const std::string text(std::istreambuf_iterator<char>(std::cin), {});

@@ -25,9 +25,9 @@ std::string page_head(const std::string& model) {
   const std::string text = fmt::format(
       "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts are "
       "defined with the parameters in `src/models/{1}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
-      "mm\"`), of any unit of their dimension: m, in, ft; g, t, lb; s, min, h, d; rad, deg, rev, rpm; N, Pa, bar, psi, "
-      "J, "
-      "W, Hz; L, P, cP; with the prefixes n, u, m, c, k, M, G of SI units, products (`Pa s`), quotients (`t/h`) and "
+      "mm\"`), of any unit of their dimension: m, in, ft; g, t, lb; s, min, h, d; rad, deg, rev, rpm; N, lbf, Pa, bar, "
+      "psi, psf, J, W, Hz; L, cc, P, cP; with the prefixes n, u, m, c, k, M, G of SI units, products (`Pa s`), "
+      "quotients (`t/h`) and "
       "powers (`m/s2`). The unit below is that of the default and of the output of `talus check`.",
       model, model == "continuum" ? "continuum/setup" : model);
   return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));

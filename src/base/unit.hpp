@@ -35,9 +35,9 @@ struct Quantity {
 
 /// Reads a number and its unit: "200 um", "1.82e-5 Pa s", "9.81 m/s2", "45 deg", "0.5". Units m, g, s, rad, N, Pa, J,
 /// W, Hz, bar and L (litre), with the prefixes p, n, u (or µ), m, c, k, M, G; deg (or °), rev, rpm, min, h, d, t, kt,
-/// hPa, cP, P (poise), in, ft, lb and psi without. Products by blank, '*' or '·', quotients by '/' (of the next unit
-/// only), parentheses, powers by digits ("m2", "m^2", "m²", "s^-1").
-/// \returns nothing if the text is no quantity; `why` then says what is wrong
+/// hPa, cP, P (poise), dm, cc, in, ft, lb, lbf, psi and psf without. Products by blank, '*' or '·', quotients by '/'
+/// (of the next unit only), parentheses, powers by digits ("m2", "m^2", "m²", "s^-1"). \returns nothing if the text is
+/// no quantity; `why` then says what is wrong
 std::optional<Quantity> parse_quantity(std::string_view text, std::string* why = nullptr);
 
 /// The unit in which Talus writes a quantity of this dimension: "m", "kg/m3", "Pa s", "deg" for angles, "" for numbers.

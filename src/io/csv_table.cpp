@@ -25,14 +25,21 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\"") + 1 - begin);
 }
 
-std::vector<std::string_view> split(std::string_view line) {
+std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> entries;
   while (true) {
-    const std::size_t comma = line.find(',');
-    entries.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return entries;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    entries.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return entries;
+    line.remove_prefix(end + 1);
   }
+}
+
+/// Of a header line.
+char separator_of(std::string_view line) {
+  for (const char separator : {',', ';', '\t'})
+    if (line.find(separator) != std::string_view::npos) return separator;
+  return ',';
 }
 
 /// A column as the header describes it.
@@ -67,6 +74,7 @@ class TableReader {
       rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
       if (line.empty()) continue;
       if (columns_.empty()) {
+        separator_ = separator_of(line);
         read_header(line);
         stop_at_problems();  // without the columns the lines mean nothing
       } else {
@@ -102,7 +110,7 @@ class TableReader {
   }
 
   void read_header(std::string_view line) {
-    for (const std::string_view entry : split(line)) {
+    for (const std::string_view entry : split(line, separator_)) {
       const std::size_t bracket = entry.find('[');
       const std::string_view written = trimmed(entry.substr(0, bracket));
       const ColumnAlias* const alias = alias_of(written);
@@ -119,7 +127,10 @@ class TableReader {
         problem(written, std::string(refused->why), names_of_known());
       else if (format_.known_only && !known(name) && !column.name.empty())
         unknown(name);
-      if (bracket != std::string_view::npos) read_unit(entry.substr(bracket + 1), column);
+      if (bracket != std::string_view::npos)
+        read_unit(entry.substr(bracket + 1), column);
+      else if (format_.needs_units && known(name))
+        read_unit("]", column);
       columns_.push_back(std::move(column));
     }
     for (const std::string_view name : format_.required)
@@ -135,8 +146,7 @@ class TableReader {
     const std::string unit(trimmed(text.substr(0, text.size() - 1)));
     if (unit.empty() || unit == "1" || unit == "-") {
       if (meant && *meant != dimension::none)
-        problem(column.written_name, fmt::format("a {0} needs a unit of {0}", dimension_name(*meant)),
-                units_of(*meant));
+        problem(column.written_name, fmt::format("needs a unit of {}", dimension_name(*meant)), units_of(*meant));
       return;
     }
     std::string why;
@@ -151,7 +161,7 @@ class TableReader {
   }
 
   void read_line(std::string_view line) {
-    const std::vector<std::string_view> entries = split(line);
+    const std::vector<std::string_view> entries = split(line, separator_);
     if (entries.size() != columns_.size())
       return problem({}, fmt::format("has {} entries for {} columns", entries.size(), columns_.size()));
     lines_.push_back(line_);
@@ -160,7 +170,13 @@ class TableReader {
 
   /// \returns 0 for a bad entry, after noting it
   double number(std::string_view entry, const Column& column) {
-    const std::string_view digits = entry.substr(entry.starts_with('+') ? 1 : 0);
+    std::string digits(entry.substr(entry.starts_with('+') ? 1 : 0));
+    if (const std::size_t mark = digits.find_first_of(".,"); mark != std::string::npos && separator_ != ',') {
+      if (decimal_mark_ != 0 && decimal_mark_ != digits[mark])
+        problem(column.written_name, fmt::format("'{}' has another decimal mark than entries before", entry),
+                "one mark, and no thousands");
+      decimal_mark_ = digits[mark], digits[mark] = '.';
+    }
     double value = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (entry.empty()) {
@@ -173,7 +189,7 @@ class TableReader {
       problem(column.written_name, fmt::format("'{}' is not finite", entry));
     } else if (column.written_unit.empty()) {
       return column.factor * value;
-    } else if (const auto quantity = parse_quantity(fmt::format("{} {}", entry, column.written_unit))) {
+    } else if (const auto quantity = parse_quantity(fmt::format("{} {}", digits, column.written_unit))) {
       return column.factor * quantity->value;
     } else {
       problem(column.written_name, fmt::format("'{}' is beyond what a double holds in SI", entry));
@@ -223,6 +239,7 @@ class TableReader {
 
   std::string path_;
   const CsvFormat& format_;
+  char separator_ = ',', decimal_mark_ = 0;  // 0: none yet
   int line_ = 0;
   std::vector<Column> columns_;
   std::vector<int> lines_;

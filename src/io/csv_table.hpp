@@ -4,7 +4,9 @@
 ///     duration [ms],gradient_zz [1/s]
 ///     10,-0.02
 ///
-/// Blank lines, blanks around entries, a byte order mark and line ends of either kind are taken.
+/// Blank lines, blanks around entries, a byte order mark and line ends of either kind are taken. A header without a
+/// comma may separate columns by semicolons or tabs, as instruments export them; numbers then may have decimal commas,
+/// if none of the file has a decimal point.
 #pragma once
 
 #include <filesystem>
@@ -40,6 +42,7 @@ struct CsvFormat {
   std::span<const RefusedColumn> refused = {};
   std::span<const std::string_view> required = {};  ///< columns that must be there
   bool known_only = false;                          ///< whether other columns are faults
+  bool needs_units = false;                         ///< whether a known column without its unit is a fault
   std::string_view header = {};                     ///< an example of one, for messages
 };
 
@@ -60,7 +63,8 @@ struct CsvTable {
 
 /// \throws FileError if the file cannot be read
 /// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
-///         finite or too large, and columns that are missing, given twice, unknown or in a unit that does not fit
+///         finite or too large, decimal points beside commas, and columns that are missing, given twice, unknown,
+///         without the unit that they need or in one that does not fit
 CsvTable read_csv_table(const std::filesystem::path& path, const CsvFormat& format);
 
 }  // namespace talus

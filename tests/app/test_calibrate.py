@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from program import ProgramTest
+from program import PROJECT, ProgramTest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 from talus import heap, powder  # noqa: E402
@@ -156,6 +156,65 @@ class Calibrate(ProgramTest):
         self.assertIn("loci.csv:2", said)
         self.assertIn("ff_c = 0.32", said)
 
+    def test_loci_that_do_not_fix_the_law_are_refused(self):
+        header = "consolidation [kPa],friction_angle [deg],cohesion [kPa],bulk_density [kg/m3]\n"
+        for rows, words in (("2,31,0.27,600\n2,31,0.28,600\n", "two loci of different consolidation"),
+                            ("2,31,0.27,600\n2,31,0.27,600\n", "two loci of different consolidation"),
+                            ("2,90,0.27,600\n4,31,0.5,600\n", "loci.csv:2: friction_angle: 90 deg is out of range"),
+                            ("2,85,0.27,600\n4,31,0.5,600\n", "allowed: above 0 and below 80 deg"),
+                            ("2,31,0.27,0\n4,31,0.5,600\n", "loci.csv:2: bulk_density: 0 kg/m3 is out of range"),
+                            ("1,31,1.05,600\n2,31,2.1,600\n4,31,4.2,600\n",
+                             "--shear-cell loci.csv: gives a material that no case takes: my-powder.toml:")):
+            with self.subTest(rows=rows):
+                self.assertIn(words, self.calibrate(header + rows, status=2))
+                self.assertFalse((self.folder / "my-powder.toml").exists())
+
+    def test_a_column_without_its_unit_is_refused(self):
+        said = self.calibrate("consolidation [kPa],friction_angle,cohesion [kPa],bulk_density\n2,31,0.27,600\n4,31,0.5,600\n", status=2)
+        self.assertIn("loci.csv:1: friction_angle: needs a unit of angle; allowed: deg", said)
+        self.assertIn("loci.csv:1: bulk_density: needs a unit of density; allowed: kg/m3", said)
+        (self.folder / "wall.csv").write_text("normal_stress,shear_stress [kPa]\n1,0.36\n2,0.66\n4,1.26\n")
+        said = self.calibrate(text_of(loci()), "--wall", "steel=wall.csv", status=2)
+        self.assertIn("wall.csv:1: normal_stress: needs a unit of pressure", said)
+
+    def test_walls_that_do_not_span_loads_and_grains_lighter_than_the_bed_are_refused(self):
+        for rows, words in (("2,1\n2,1.1\n2,1.05\n", "its points are under one load"),
+                            ("2,0.7\n1.6,0.9\n1.3,1.05\n", "its shear stress does not grow with the load")):
+            (self.folder / "wall.csv").write_text("normal_stress [kPa],shear_stress [kPa]\n" + rows)
+            self.assertIn(words, self.calibrate(text_of(loci()), "--wall", "steel=wall.csv", status=2))
+        said = self.calibrate(text_of(loci()), "--grain-density", "500 kg/m3", status=2)
+        self.assertIn("--grain-density 500 kg/m3: is no more than the bulk density of 620 kg/m3", said)
+        self.assertFalse((self.folder / "my-powder.toml").exists())
+
+    def test_rows_of_pre_shear_count_by_their_mean_in_any_order(self):
+        """One of 40 Pa more and one of 40 Pa less, of other densities, say what one alone does."""
+        def rows_of(order):
+            return "".join(f"{load},{load},{0.95 * M * (load + A0 + KAPPA * load) + 40 * sign},{620 + 20 * sign}\n"
+                           for load in (2000, 4000, 8000) for sign in order)
+        header = "consolidation [Pa],normal_stress [Pa],shear_stress [Pa],bulk_density [kg/m3]\n"
+        failures = "".join(f"{a},{b},{c},500\n" for a, b, c in loci().T)
+        said = [self.calibrate(header + rows_of(order) + failures) for order in ((0,), (1, -1), (-1, 1))]
+        files = (self.folder / "my-powder.toml").read_text()
+        self.assertEqual(said[0], said[1])
+        self.assertEqual(said[0], said[2])
+        self.assertIn("620 kg/m3", files)
+
+    def test_columns_by_semicolons_or_tabs_with_decimal_commas(self):
+        self.calibrate(text_of(loci()))
+        first = (self.folder / "my-powder.toml").read_text()
+        for separator in ";\t":
+            self.calibrate(text_of(loci()).replace(",", separator).replace(".", ","))
+            self.assertEqual((self.folder / "my-powder.toml").read_text(), first)
+        said = self.calibrate(text_of(loci()).replace(",", ";") + "8;1,000;2.1;620\n", status=2)
+        self.assertIn("'1,000' has another decimal mark than entries before", said)
+
+    def test_loci_stronger_than_the_fit_are_warned_of(self):
+        """Pre-shear below the loci: ff_c 1.25 where the law, which ends on them, has 1.75."""
+        said = self.said("calibrate", "--shear-cell", str(PROJECT / "validation/shear-tester/data/lumacaftor.csv"), "--out", "my-powder.toml")
+        self.assertRegex(said, "Warning: at the loci's sigma_1 the fit has 7. % of their f_c: .* on the unsafe side")
+        self.assertIn("# Warning: at the loci's sigma_1", (self.folder / "my-powder.toml").read_text())
+        self.assertNotIn("Warning", self.calibrate(text_of(loci())))
+
     def test_slips_in_a_material_file_are_said_with_their_lines(self):
         self.calibrate(text_of(loci()))
         path = self.folder / "my-powder.toml"
@@ -172,8 +231,42 @@ class Calibrate(ProgramTest):
                           "--silo-height", "8 m")
         for words in ("critical outlet", "rathole", "Johanson", "EN 1991-4"):
             self.assertIn(words, said)
+        self.assertNotIn("funnel", said.replace("if the flow is a funnel", ""))
+        said = self.said("hopper-design", "--material", "my-powder.toml", "--wall", "0.35", "--outlet", "1 m", "--half-angle", "60 deg")
+        self.assertEqual(len(re.findall(r"(?m)^(?:flow factor there|critical outlet|discharge, coarse grains) +funnel +funnel ", said)), 3)
+        self.assertIn("wedge: funnel flow beyond the limit", " ".join(said.split()))
+        for angle, words in (("20", '"20" has no unit'), ("95 deg", "is out of range; allowed: above 0 and below 90 deg")):
+            self.assertIn(words, self.said("hopper-design", "--material", "cement", "--half-angle", angle, status=2))
+        said = self.said("hopper-design", "--material", "flour", status=2)
+        self.assertTrue(said.startswith("--material flour: is no material"), said)
         said = self.said("hopper-design", "--material", "nosuch", "--wall", "brick", "--outlet", "3", status=2)
         self.assertEqual(len(said.strip().split("\n")), 4)
+
+    def test_hopper_design_by_delta_with_adhesion_and_beyond_the_range(self):
+        """kappa alone: delta by it, at any stress; no outlet arches, or all do, and no stress is told."""
+        self.calibrate(text_of(loci()))
+        path = self.folder / "my-powder.toml"
+        text = path.read_text()
+        sticky = text.replace('value = "150 Pa"', 'value = "0 Pa"').replace("value = 0.15\n", "value = 0.774\n")
+        path.write_text(sticky)
+        said = self.said("hopper-design", "--material", "my-powder.toml", "--wall", "0.3")
+        self.assertRegex(said, r"effective angle, delta +49\.\d deg +49\.\d deg")
+        self.assertRegex(said, r"half angle of mass flow, at most +\S+ deg +30\.\d deg")
+        path.write_text(sticky.replace("value = 0.774\n", "value = 1.0\n")
+                        .replace("static_friction]\nvalue = 0.6\n", "static_friction]\nvalue = 0.9\n").replace("value = 0.856\n", "value = 1.2\n"))
+        said = self.said("hopper-design", "--material", "my-powder.toml", "--wall", "0.2", "--half-angle", "10 deg")
+        self.assertRegex(said, r"sigma_1 there +none +none")
+        self.assertRegex(said, r"critical outlet +arches +arches")
+        path.write_text(text + '\n[walls.steel]\nvalue = 0.3\nadhesion = "100 Pa"\n')
+        said = self.said("hopper-design", "--material", "my-powder.toml", "--silo-diameter", "6 m", "--silo-height", "12 m")
+        self.assertRegex(said, r"angle of the wall at the outlet +30\.\d deg +29\.\d deg")
+        self.assertRegex(said, r"half angle there, at most +26\.\d deg +15\.\d deg")
+        self.assertRegex(said, r"! sigma_1 of [\d.]+ kPa: the values of my-powder hold up to 8 kPa")
+        words = ("hopper-design", "--material", "my-powder.toml", "--outlet", "300 mm", "--half-angle")
+        self.assertRegex(self.said(*words, "25 deg"), r"discharge, coarse grains +\S+ t/h +funnel")
+        self.assertRegex(self.said(*words, "20 deg"), r"discharge, coarse grains +\S+ t/h +\S+ t/h")
+        said = self.said("hopper-design", "--material", "glass-beads")
+        self.assertIn("below 30 deg the closed forms are", " ".join(said.split()))
 
 
 if __name__ == "__main__":

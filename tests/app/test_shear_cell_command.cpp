@@ -21,6 +21,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const char* const powder = R"([law]
 name = "critical-state"
@@ -121,13 +122,56 @@ material = "steel"
 
 TEST_F(ShearCellCommand, NamesEveryProblem) {
   EXPECT_THAT(problems({powder_case(), "--loads", "1 kPa,3,-2 Pa", "--fractions", "0.5", "--rate", "1 m"}),
-              ElementsAre(HasSubstr("\"3\" is out of place; allowed: loads of pre-shear above 0"),
-                          HasSubstr("\"-2 Pa\" is out of place"), HasSubstr("--rate 1 m: \"1 m\" is out of place"),
+              ElementsAre(HasSubstr("\"3\" has no unit; allowed: loads of pre-shear above 0"),
+                          HasSubstr("\"-2 Pa\" is out of range"), HasSubstr("--rate 1 m: \"1 m\" has another unit"),
                           HasSubstr("--fractions 0.5: is one load; allowed: at least two")));
+  EXPECT_THAT(problems({powder_case(), "--fractions", "0.5,0.5"}),
+              ElementsAre(HasSubstr("--fractions 0.5,0.5: is one load; allowed: at least two that differ")));
+  EXPECT_THAT(problems({powder_case(), "--loads", "1 GPa", "--fractions", "0.2,0.5", "--out", out()}),
+              ElementsAre(HasSubstr("--loads 1e+09 Pa: the law critical-state leaves no yield locus; allowed: a law "
+                                    "with friction, and loads far below its modulus rho c^2: up to 4.4e+05 Pa")));
   EXPECT_THAT(problems({powder_case(), "--set", "law.critical-state.tensile_strength=3"}),
               ElementsAre(HasSubstr("tensile_strength")));
   EXPECT_THAT(problems({powder_case(), "--set", "law.critical-state.tensile_strength=1 MPa"}),
               ElementsAre(HasSubstr("at most 0.1 bulk_modulus")));
+}
+
+TEST_F(ShearCellCommand, RefusesFilesWithoutALaw) {
+  std::ofstream(folder_ / "empty.toml") << "";
+  std::ofstream(folder_ / "cloud.toml") << "model = \"cloud\"\n";
+  const auto of = [&](const char* name) { return problems({(folder_ / name).string(), "--out", out()}); };
+  EXPECT_THAT(of("empty.toml"), ElementsAre(HasSubstr("empty.toml: holds no law; allowed: a case of the model")));
+  EXPECT_THAT(of("cloud.toml"), ElementsAre(HasSubstr("cloud.toml:1: model: cloud has no law of grains")));
+}
+
+TEST_F(ShearCellCommand, NamesTheLawAndWarnsBeyondTheRangeOfTheMaterial) {
+  std::ofstream(folder_ / "pharma.toml") << "[grains]\nmaterial = \"pharma-powder\"\n";
+  const auto said = [&](const char* load) {
+    return run({(folder_ / "pharma.toml").string(), "--loads", load, "--fractions", "0.2,0.5", "--out",
+                (folder_ / load).string()});
+  };
+  EXPECT_THAT(said("1 kPa"), HasSubstr("Law critical-state"));
+  EXPECT_THAT(said("2 kPa"), HasSubstr("a load of 2000 Pa: the values of pharma-powder hold up to a pressure of 700"));
+  EXPECT_THAT(said("0.5 kPa"), Not(HasSubstr("hold up to")));
+}
+
+TEST_F(ShearCellCommand, APackingBesideTheLawsOwnNamesItsKey) {
+  try {
+    run({powder_case(), "--set", "path.packing=0.58", "--loads", "1 Pa", "--out", out()});
+    FAIL() << "the grains do not touch";
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("path.packing left out, so that the grains just touch"));
+  }
+}
+
+TEST_F(ShearCellCommand, WithoutAPeakThereIsNoStrength) {
+  // A sample that its own compression strengthens without end.
+  const std::string said = run(
+      {powder_case(), "--loads", "1 kPa", "--fractions", "0.2,0.5", "--set", "law.critical-state.cohesion_strain=0.1",
+       "--set", "law.critical-state.consolidation_strength=0.8", "--set", "law.critical-state.static_friction=0.6",
+       "--set", "law.critical-state.dynamic_friction=0.6", "--out", out()});
+  EXPECT_THAT(said, HasSubstr("        none"));
+  EXPECT_TRUE(std::isnan(read_series(folder_ / "out" / "flow-function.csv").column("strength_in_plane_strain")[0]));
 }
 
 }  // namespace

@@ -63,6 +63,13 @@ TEST(ParseQuantity, ReadsTheUnitsOfTheTrade) {
   EXPECT_EQ(value_of("1 lb"), 0.45359237);
   EXPECT_DOUBLE_EQ(value_of("62.4 lb/ft3"), 62.4 * 0.45359237 / (0.3048 * 0.3048 * 0.3048));
   EXPECT_EQ(value_of("1 psi"), 6894.757293168361336722673445346890693781);
+  EXPECT_EQ(value_of("1 lbf"), 4.4482216152605);
+  EXPECT_EQ(value_of("1 psf"), 47.880258980335842616);
+  EXPECT_DOUBLE_EQ(value_of("1 lbf/ft2"), value_of("1 psf"));
+  EXPECT_EQ(value_of("144 psf"), value_of("1 psi"));
+  EXPECT_EQ(value_of("0.62 g/cc"), 620);
+  EXPECT_EQ(value_of("0.62 kg/dm3"), 620);
+  EXPECT_EQ(value_of("0.62 g/cm3"), 620);
   EXPECT_EQ(value_of("18.5 cP"), 0.0185);
   EXPECT_EQ(value_of("2 P"), 0.2);
   EXPECT_EQ(value_of("6 L/min"), 1e-4);
@@ -211,8 +218,8 @@ TEST(FormatQuantity, ShortestText) {
 
 TEST(FormatQuantity, ReadsBackToTheSameBits) {
   Random random(3);
-  for (const char* unit : {"", "m", "um", "kg/m3", "deg", "rad/s", "km/h", "min", "deg^-2", "m^2 kg s^-3", "rpm", "in",
-                           "ft", "lb", "psi", "t/h"}) {
+  for (const char* unit : {"",    "m",  "um", "kg/m3", "deg", "rad/s", "km/h", "min",  "deg^-2", "m^2 kg s^-3",
+                           "rpm", "in", "ft", "lb",    "lbf", "psi",   "psf",  "g/cc", "dm",     "t/h"}) {
     for (int i = 0; i < 500; ++i) {
       const double value = std::ldexp(random.uniform(-1, 1), static_cast<int>(random.uniform(-200, 200)));
       const std::string text = format_quantity(value, unit);

@@ -58,6 +58,14 @@ TEST_F(PointsCsv, ToleratesBlanksLineEndsAndByteOrderMark) {
   EXPECT_EQ(read("x\n").view().size(), 0u);
 }
 
+TEST_F(PointsCsv, TakesSemicolonsAndTabsWithDecimalCommasOrPoints) {
+  for (const char* text : {"x [m];z [m]\n1,5;2\n3;-4,25e-1\n", "x [m]\tz [m]\n1.5\t2\n3\t-4.25e-1\n"})
+    EXPECT_THAT(read(text).view().positions(), ElementsAre(Vector3{1.5, 0, 2}, Vector3{3, 0, -0.425}));
+  EXPECT_THAT(problems("x;z\n1,5;2.5\n"), ElementsAre(":2: z: '2.5' has another decimal mark than entries before; "
+                                                      "allowed: one mark, and no thousands"));
+  EXPECT_THAT(problems("x;z\n1.000,5;2\n"), ElementsAre(":2: x: '1.000,5' is not a number"));
+}
+
 TEST_F(PointsCsv, ReportsEveryBadLineAtOnce) {
   EXPECT_THAT(problems("x [mm],radius\n"
                        "1,two\n"
@@ -86,9 +94,9 @@ TEST_F(PointsCsv, ReportsWhatIsWrongWithTheHeader) {
               ElementsAre(HasSubstr(":1: y: 'kg' is no unit of length"), ":1: y: stands twice in the header",
                           HasSubstr(":1: mass: "), HasSubstr(":1: w: unit without a closing bracket"),
                           HasSubstr(":1: x: missing column"), ":1: radius: missing column"));
-  EXPECT_THAT(problems("x;y;z\n1;2;3\n"),
+  EXPECT_THAT(problems("x y z\n1 2 3\n"),
               ElementsAre(HasSubstr("missing column; allowed: columns separated by commas")));
-  EXPECT_THAT(problems("x [1]\n"), ElementsAre(HasSubstr("a length needs a unit of length")));
+  EXPECT_THAT(problems("x [1]\n"), ElementsAre(HasSubstr("needs a unit of length")));
   EXPECT_THAT(problems("\n"), ElementsAre(HasSubstr("has no header line")));
   EXPECT_THAT(message_of<FileError>([&] { read_points_csv(folder_ / "none.csv"); }),
               HasSubstr("none.csv: cannot open: No such file or directory"));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """talus calibrate: a material file from a shear tester's loci, from the angle of a poured heap, or from beads."""
 import math
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,20 @@ def read_walls(words, problems):
         except InputError as error:
             problems += error.problems
     return walls
+
+
+def warn_of_strength(loci, friction, strength, growth, material):
+    """Where the loci are stronger than the fit at their sigma_1, by more than they scatter and 5 %: what a design by it misses."""
+    angle = math.atan(friction)
+    circle = (1 + friction**2) * (1 + math.sin(angle))  # sigma_1 + a over the load + a
+    majors, measured = np.array([(locus["major"], locus["strength"]) for locus in loci if locus["strength"] > 0]).reshape(-1, 2).T
+    if len(majors) < 2:
+        return
+    load = np.maximum((majors - (circle - 1) * strength) / (circle + (circle - 1) * growth), 0)
+    share = 2 * friction * math.cos(angle) / (1 - math.sin(angle)) * (strength + growth * load) / measured
+    if 1 - np.mean(share) > max(np.std(share, ddof=1), 0.05):
+        material.warn(f"at the loci's sigma_1 the fit has {100 * np.mean(share):.0f} % of their f_c: outlets and ratholes of a design by it "
+                      "are too small, on the unsafe side; measured outlets may arch where it has none that does")
 
 
 def table_of_loci(loci, friction, strength, growth):
@@ -65,6 +80,9 @@ def from_shear_cell(options, grain_density, diameter, problems):
     source = f"{len(loci)} yield loci, {len(points)} points of failure: {name}; least squares, interval of 95 %"
     material = Material(f"{Path(options.out).stem}: by the yield loci of {name}")
     density = given or float(np.mean(densities))
+    if grain_density and grain_density <= density:
+        raise InputError([problem(f"--grain-density {options.grain_density}", f"is no more than the bulk density of {density:.4g} kg/m3",
+                                  allowed="the true density of the grains, above that")])
     material.add_packing(density, None if given else (min(densities), max(densities)), grain_density, diameter,
                          "as given" if given else f"mean after pre-shear, {name}")
     material.add_friction(friction, source)
@@ -82,7 +100,9 @@ def from_shear_cell(options, grain_density, diameter, problems):
         on_wall, adhesion = powder.fit_wall(*data)
         material.add(f"walls.{wall}", on_wall.value,
                      f"{len(data.T)} points of {Path(path).name}; besides an adhesion of {adhesion.value:.3g} Pa ({adhesion.low:.3g} to "
-                     f"{adhesion.high:.3g}): walls.adhesion", interval=(on_wall.low, on_wall.high))
+                     f"{adhesion.high:.3g}): walls.adhesion", interval=(on_wall.low, on_wall.high),
+                     **({"adhesion": f"{adhesion.value:.6g} Pa"} if adhesion.value > 0 else {}))
+    warn_of_strength(loci, friction.value, strength.value, growth.value, material)
     say(table_of_loci(loci, friction.value, strength.value, growth.value))
     for label, estimate, unit in (("friction M", friction, ""), ("tensile_strength", strength, " Pa"),
                                   ("consolidation_strength", growth, "")):
@@ -121,6 +141,18 @@ def from_heap(options, grain_density, diameter, problems):
     return material_of(powder.Estimate(*heap.friction_of(degrees, heap_of, say)))
 
 
+def check(material, options, entrance):
+    """Raises InputError, with the data, if the program would refuse the file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / Path(options.out).name
+        file.write_text(material.text(), encoding="utf-8")
+        try:
+            ask("material", file=file)
+        except InputError as error:
+            raise InputError([problem(f"--{entrance.replace('_', '-')} {getattr(options, entrance)}", "gives a material that no case takes: "
+                                      + one.replace(f"{folder}/", "")) for one in error.problems]) from error
+
+
 ENTRANCES = {"shear_cell": ("wall", "bulk_density", "grain_density", "diameter"), "repose": ("bulk_density", "grain_density", "diameter"),
              "grains": ("jobs", "quick")}
 
@@ -153,7 +185,10 @@ def main():
     else:
         make = from_shear_cell if options.shear_cell else from_heap
         material = make(options, grain_density, diameter, problems)
+    check(material, options, given[0])
     write({options.out: material.text()})
+    for warning in material.warnings:
+        say(f"Warning: {warning}")
     say(f"Material: {options.out}; in a case grains.material = \"{options.out}\"")
     return DONE
 

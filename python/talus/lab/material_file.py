@@ -33,6 +33,12 @@ class Material:
     def __init__(self, title):
         self.lines = ["# Written by talus calibrate. Values, the intervals of 95 % in which they lie, and where they are from.",
                       f"title = {toml_text(title)}"]
+        self.warnings = []
+
+    def warn(self, text):
+        """Of what the values do not hold for; \\param text one line"""
+        self.warnings.append(text)
+        self.lines.insert(1, f"# Warning: {text}.")
 
     def add(self, key, value, source, unit="", interval=None, **more):
         def text(number):

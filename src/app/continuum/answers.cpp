@@ -132,9 +132,11 @@ class FlowAnswers {
     const std::string by_hand = std::isinf(outlet.width) ? "any arches"
                                 : outlet.width > 0       ? length_text(outlet.width)
                                                          : "none";
-    return {
-        "Critical outlet", fmt::format("{} here", length_text(setup_.outlet_width.value_or(0))),
-        fmt::format("{} (Jenike: flow factor {:.3g}, f_c {})", by_hand, outlet.factor, pressure_text(outlet.strength))};
+    const std::string stress =
+        outlet.strength > 0 ? fmt::format(": flow factor {:.3g}, f_c {}", outlet.factor, pressure_text(outlet.strength))
+                            : "";
+    return {"Critical outlet", fmt::format("{} here", length_text(setup_.outlet_width.value_or(0))),
+            fmt::format("{} (Jenike{})", by_hand, stress)};
   }
 
   Answer regime() const {

@@ -13,7 +13,26 @@
 
 namespace talus::app {
 
+namespace {
+
+/// \throws InputError if the file has no law of grains, so that a default one would answer in its place
+void check_has_law(const CaseFile& file) {
+  const CaseEntry* const model = file.find("model");
+  const auto* const name = model ? std::get_if<std::string>(&model->value.value) : nullptr;
+  const auto is_of_law = [](const CaseEntry& entry) { return lies_in(entry.key, "law"); };
+  const bool has_law = std::any_of(file.entries().begin(), file.entries().end(), is_of_law);
+  if (name ? *name == "continuum" : has_law || file.contains("grains.material")) return;
+  throw InputError({{.where = file.name(),
+                     .line = model ? model->line : 0,
+                     .key = model ? "model" : "",
+                     .what = name ? fmt::format("{} has no law of grains", *name) : "holds no law",
+                     .allowed = "a case of the model continuum; a table [law]; grains.material"}});
+}
+
+}  // namespace
+
 LawCase read_law_case(const CaseFile& file) {
+  check_has_law(file);
   static constexpr std::array<std::string_view, 10> concerned{"law",
                                                               "collisions",
                                                               "path",
@@ -29,6 +48,7 @@ LawCase read_law_case(const CaseFile& file) {
   fill_in_values(file, parameters);
   continuum::Parameters whole;  // a wall's friction, and what is wrong with a file, are those of the whole case
   const FilledIn filled = fill_in_material(file, whole);
+  parameters.grains.range = whole.grains.range;
   if (filled.keys.contains("walls.coefficient")) parameters.walls.coefficient = whole.walls.coefficient;
   std::string title;
   ParameterReader reader(part, continuum::renamed_keys);

@@ -29,6 +29,7 @@ struct LawCase {
     std::optional<continuum::GrainMaterial> material;
     double density = 2500;
     double diameter = 200e-6;
+    continuum::MaterialRange range;  ///< where the material's values hold; without a name where there is none
   } grains;
   struct Gravity {
     double acceleration = 9.81;
@@ -76,7 +77,7 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
 }
 
 /// Of a case that names a model only what concerns the law is read and checked; one without is all the law's own.
-/// \throws InputError with every problem
+/// \throws InputError with every problem, and for a file without a law: of another model, or empty
 LawCase read_law_case(const CaseFile& file);
 
 /// Reads a path: a line per stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity

@@ -21,6 +21,7 @@ constexpr double side = 300, gap = 70, edge = 12, line = 1.2, thin = 0.7, dot = 
 
 void mark(cairo_t* context, const Frame& frame, const granular::YieldPoint& point, const figure::Colour& colour,
           bool filled) {
+  if (!std::isfinite(point.shear)) return;
   cairo_new_path(context);
   cairo_arc(context, frame.x(point.normal / 1e3), frame.y(point.shear / 1e3), dot, 0, 2 * std::numbers::pi);
   figure::set_colour(context, filled ? colour : figure::white);
@@ -108,7 +109,8 @@ void write_shear_figure(std::span<const granular::ShearTest> tests, const std::f
   double major = 0, strength = 0;
   for (const granular::ShearTest& test : tests) {
     major = std::max(major, test.locus.major);
-    strength = std::max({strength, test.locus.strength, test.strength_in_plane_strain, test.strength_of_cylinder});
+    for (const double one : {test.locus.strength, test.strength_in_plane_strain, test.strength_of_cylinder})
+      strength = std::fmax(strength, one);
   }
   const double reach = above(major / 1e3);
   Frame loci{.x = {0, reach, 0, side},

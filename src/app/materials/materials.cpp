@@ -242,6 +242,21 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   return filled;
 }
 
+std::vector<Problem> problems_of_material(const std::string& path) {
+  const CaseFile file = CaseFile::from_text(fmt::format("[grains]\nmaterial = {}\n", talus::quoted(path)), "");
+  continuum::Parameters parameters;
+  std::vector<Problem> problems = fill_in_material(file, parameters).problems;
+  const auto material = material_file(file, problems);
+  if (!material) return problems;
+  for (const WallMaterial wall :
+       {WallMaterial::steel, WallMaterial::acrylic, WallMaterial::glass, WallMaterial::concrete})
+    friction_on(*material, wall, problems);
+  auto& law = parameters.law.of<granular::CriticalState>();
+  if (parameters.bed.packing >= law.random_loose_packing) law.reference_packing = parameters.bed.packing;
+  for (Problem& problem : granular::check(parameters.law)) problems.push_back(std::move(problem));
+  return problems;
+}
+
 namespace {
 
 /// The depth that the bed and what comes in until the end of the run can have, m.

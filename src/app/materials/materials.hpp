@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
 /// it fills in, with `value`, and `range` and `source` of it, of a friction also `test` and the `angle` that it gave;
-/// [walls.NAME] of each wall that its friction is known of;
+/// [walls.NAME] of each wall that its friction is known of, with its adhesion, if any, which talus hopper-design takes;
 /// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid;
 /// [lateral_pressure_ratio], K of a bed at rest, where it was measured. A case may also name a file of its own, which
 /// talus calibrate writes: the same without the last two.
@@ -63,6 +63,9 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 /// The values alone, of any list of parameters with keys of a case: what of them the material has.
 template <class P>
 FilledIn fill_in_values(const CaseFile& file, P& parameters);
+
+/// What is wrong with a material's file: for what a case that names it would be refused.
+std::vector<Problem> problems_of_material(const std::string& path);
 
 /// The case without grains.material, if that is a file, and without what its walls are made of: fill_in_material() has
 /// made values of other keys of these, and none of the program's materials is meant.

@@ -54,6 +54,7 @@ double flow_factor(HopperShape shape, double half_angle, double friction, double
   const int m = shape == HopperShape::cone ? 1 : 0;
   // (1 - sin delta) times X - 1 and Y: it is left out of both.
   const double x = (m + 1) * sine * (std::sin(2 * beta + half_angle) / std::sin(half_angle) + 1) - (1 - sine);
+  if (!(x > 0)) return std::numeric_limits<double>::infinity();
   const double y =
       ((m ? 2 * (1 - std::cos(sum)) : sum) * std::sin(half_angle) + std::sin(beta) * std::pow(std::sin(sum), 1 + m)) /
       std::pow(std::sin(sum), 2 + m);
@@ -74,28 +75,34 @@ CriticalOutlet critical_outlet(HopperShape shape, double half_angle, double wall
   // Of the consolidation over the strength that it leaves, more than an arch bears.
   const auto excess = [&](double load) {
     const YieldLocus locus = steady_locus(law, load);
-    outlet = {.major = locus.major,
-              .strength = locus.strength,
-              .factor = flow_factor(shape, half_angle, wall_friction, locus.effective_angle),
-              .effective_angle = locus.effective_angle,
-              .width = outlet_factor(shape, half_angle) * locus.strength / weight};
+    outlet.major = locus.major, outlet.strength = locus.strength, outlet.effective_angle = locus.effective_angle;
+    outlet.factor = flow_factor(shape, half_angle, wall_friction, locus.effective_angle);
+    outlet.width = outlet_factor(shape, half_angle) * locus.strength / weight;
     return locus.major - outlet.factor * locus.strength;
   };
-  constexpr double low = 1e-3, high = 1e9;  // Pa
-  if (!(excess(high) > 0)) {
-    outlet.width = std::numeric_limits<double>::infinity();
+  constexpr double low = 1e-3, high = 1e9, step = 1.1;  // Pa
+  const bool any_flows = excess(low) > 0;
+  double begin = any_flows ? low : 0, end = 0;  // of the loads under which it flows; 0: none
+  for (double load = low; load < high && !(end > 0); load *= step)
+    if ((excess(step * load) > 0) == !(begin > 0)) (begin > 0 ? end : begin) = load;
+  if (end > 0) {
+    excess(crossing([&](double load) { return -excess(load); }, end, step * end));
+    outlet.widest = outlet.width;
+  }
+  if (begin > 0 && !any_flows) {
+    excess(crossing(excess, begin, step * begin));
     return outlet;
   }
-  if (excess(low) > 0) {
-    outlet.major = outlet.strength = outlet.width = 0;
-    return outlet;
-  }
-  excess(crossing(excess, low, high));
+  excess(any_flows ? low : high);
+  outlet.major = outlet.strength = 0;
+  outlet.width = any_flows ? 0 : std::numeric_limits<double>::infinity();
   return outlet;
 }
 
-double rathole_diameter(const CriticalStateParameters& law, double load, double weight) {
+double rathole_diameter(const CriticalStateParameters& law, double major, double weight) {
   if (!law.has_cohesion()) return 0;
+  const double load =
+      crossing([&](double tried) { return steady_locus(law, tried).major - major; }, 1e-6 * major, major);
   const YieldLocus locus = steady_locus(law, load);
   return 4.3 * std::tan(locus.angle) * locus.strength / weight;
 }

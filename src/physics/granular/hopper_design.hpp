@@ -18,7 +18,8 @@ enum class HopperShape { wedge, cone };
 
 /// The largest half angle of mass flow. Of a cone mass_flow_half_angle() (silo.hpp); of a wedge, three times as long as
 /// wide at least, {exp[3.75 * 1.01^((delta - 30)/10)] - phi_w}/0.725 in degrees. A wall counts as rough as the grains
-/// at most. Range: delta from 20 degrees on; practice takes off 3 degrees of a cone's. \param friction of the wall
+/// at most. Range: delta from 30 degrees on, as the charts; below about 25 the wedge's falls under the cone's. Practice
+/// takes off 3 degrees. \param friction of the wall
 double mass_flow_half_angle(HopperShape shape, double friction, double internal);
 
 /// H, the width of an outlet over the height of its arch's own material, f_c/(rho_b g): 1 + theta/180 degrees of a
@@ -30,28 +31,30 @@ double outlet_factor(HopperShape shape, double half_angle);
 ///     X = 2^m sin delta/(1 - sin delta) [sin(2 beta + theta)/sin theta + 1],
 ///     Y = {[2 (1 - cos(beta + theta))]^m (beta + theta)^(1 - m) sin theta + sin beta sin^(1 + m)(beta + theta)}
 ///         /[(1 - sin delta) sin^(2 + m)(beta + theta)].
-/// Range: mass flow; the published charts end at 1.1, below which no value is returned.
+/// Range: mass flow, delta from 30 degrees on; the published charts end at 1.1, below which no value is returned.
+/// Infinite where X <= 1: there is no such stress field.
 double flow_factor(HopperShape shape, double half_angle, double friction, double internal);
 
 /// The locus that steady shear under a load leaves, as a shear tester evaluates it (shear_cell.hpp): points tau = M
 /// (sigma + a_0 + kappa load), on which pre-shear lies too. Without the strength at rest. \param load Pa, > 0
 YieldLocus steady_locus(const CriticalStateParameters& law, double load);
 
-/// Where the strength of what flows is that of its arch: f_c = sigma_1/ff. Smaller outlets arch.
+/// The least stress at which the strength of what flows is that of its arch, f_c = sigma_1/ff. Smaller outlets arch.
 struct CriticalOutlet {
-  double major = 0, strength = 0;  ///< sigma_1, f_c, Pa; 0 where none arches
-  double factor = 0;               ///< ff there; where none arches, of vanishing stress
-  double effective_angle = 0;      ///< delta there
+  double major = 0, strength = 0;  ///< sigma_1, f_c, Pa; 0 where none arches, or all do
+  double factor = 0;               ///< ff there; where none arches, of vanishing stress, where all do, of large
+  double effective_angle = 0;      ///< delta likewise
   double width = 0;                ///< B = H f_c/(rho_b g), m; infinite where any outlet arches
+  double widest = std::numeric_limits<double>::infinity();  ///< m; wider ones arch again, as delta falls with sigma_1
 };
 /// \param weight rho_b g, N/m^3 \param wall_friction of the hopper
 CriticalOutlet critical_outlet(HopperShape shape, double half_angle, double wall_friction,
                                const CriticalStateParameters& law, double weight);
 
-/// The diameter of a channel in funnel flow that would stand empty, m: G(phi_t) f_c/(rho_b g), G = 4.3 tan(phi_t)
-/// within 4 % of the curve in Schulze, Powders and Bulk Solids (2008), Fig. 10.19, from 30 to 70 degrees. \param load
-/// Pa, that consolidated it: an upper bound is the largest vertical stress in the silo
-double rathole_diameter(const CriticalStateParameters& law, double load, double weight);
+/// The diameter of a channel in funnel flow that would stand empty, m: G(phi_t) f_c(sigma_1)/(rho_b g), G = 4.3
+/// tan(phi_t) within 4 % of the curve in Schulze, Powders and Bulk Solids (2008), Fig. 10.19, from 30 to 70 degrees.
+/// \param major sigma_1 that consolidated it, Pa: an upper bound is the largest vertical stress in the silo
+double rathole_diameter(const CriticalStateParameters& law, double major, double weight);
 
 /// rho_b A {B g/[2 (1 + m) tan theta]}^(1/2), kg/s, of coarse grains in mass flow; of cohesive ones, times (1 -
 /// ff/ff_a)^ (1/2), ff_a the flow factor of the outlet as it is, B/(critical B) times ff. Source: Johanson, Trans. AIME

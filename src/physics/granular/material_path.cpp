@@ -131,12 +131,13 @@ MaterialPoint<Law> controlled(const Law& law, const MaterialPoint<Law>& old, Ten
     }
   }
   if (!(most <= tolerance))
-    throw NumericalError({.what = "the law bears no such stress",
-                          .term = "law " + std::string(Law::name) + " under a prescribed stress",
-                          .place = "one material point",
-                          .step = 0,
-                          .time = time,
-                          .advice = "less stress, a smaller path.max_increment"});
+    throw NumericalError(
+        {.what = "the law bears no such stress",
+         .term = "law " + std::string(Law::name) + " under a prescribed stress",
+         .place = "one material point",
+         .step = 0,
+         .time = time,
+         .advice = "less stress, path.packing left out, so that the grains just touch, a smaller path.max_increment"});
   density = density_after(density, gradient, step);
   return point;
 }

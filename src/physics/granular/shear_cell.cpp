@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace talus::granular {
 
@@ -35,15 +36,19 @@ class Sample {
       most = std::max(most, std::abs(p.stress.zx));
     return most;
   }
-  /// Compresses it along z under its lateral stress. \returns the largest axial stress
-  double compress(double strain, bool in_plane_strain) {
+  /// Compresses it along z under its lateral stress. \returns the largest axial stress, and whether it was a peak or
+  /// plateau: within the last tenth of the strain it grew by less than 1 %
+  std::pair<double, bool> compress(double strain, bool in_plane_strain) {
     const Tensor3<> gradient{.zz = -options_.rate};
     Stress stress{point_.stress.xx, point_.stress.yy, std::nullopt, std::nullopt};
     if (in_plane_strain) stress[1].reset();
-    double most = point_.stress.zz;
-    for (const PathPoint& p : follow({strain / options_.rate, gradient, stress}, 1000))
-      most = std::max(most, p.stress.zz);
-    return most;
+    double most = point_.stress.zz, before = most;
+    const std::vector<PathPoint> path = follow({strain / options_.rate, gradient, stress}, 1000);
+    for (std::size_t n = 0; n < path.size(); ++n) {
+      most = std::max(most, path[n].stress.zz);
+      if (n == 9 * path.size() / 10) before = most;
+    }
+    return {most, most <= 1.01 * before};
   }
 
  private:
@@ -103,7 +108,7 @@ ShearTest shear_test(const AnyLaw& law, double load, std::span<const double> fra
     test.points.push_back({fraction * load, failing.shear(options.failure_strain)});
     Sample cylinder = sample;
     cylinder.release(fraction * load);
-    test.triaxial.push_back({fraction * load, cylinder.compress(options.failure_strain, false)});
+    test.triaxial.push_back({fraction * load, cylinder.compress(options.failure_strain, false).first});
   }
   test.locus = evaluated(test.pre_shear, test.points);
   if (options.wall) {
@@ -115,8 +120,8 @@ ShearTest shear_test(const AnyLaw& law, double load, std::span<const double> fra
   for (const bool in_plane_strain : {true, false}) {
     Sample unconfined = sample;
     unconfined.release(0);
-    (in_plane_strain ? test.strength_in_plane_strain : test.strength_of_cylinder) =
-        unconfined.compress(options.failure_strain, in_plane_strain);
+    const auto [strength, is_peak] = unconfined.compress(options.failure_strain, in_plane_strain);
+    (in_plane_strain ? test.strength_in_plane_strain : test.strength_of_cylinder) = is_peak ? strength : std::nan("");
   }
   return test;
 }

@@ -74,8 +74,8 @@ struct ShearTest {
   std::vector<YieldPoint> points = {};   ///< one for each fraction of the load
   std::vector<YieldPoint> on_wall = {};  ///< the same on the wall, and one under the whole load; empty without a wall
   YieldLocus locus = {};
-  double strength_in_plane_strain = 0;     ///< f_c of a compressed sample that cannot widen along y, Pa
-  double strength_of_cylinder = 0;         ///< f_c of one that widens along x and y, Pa
+  double strength_in_plane_strain = 0;     ///< f_c of a compressed sample that cannot widen along y, Pa; nan: no peak
+  double strength_of_cylinder = 0;         ///< f_c of one that widens along x and y, Pa; nan: no peak
   Compression oedometer = {};              ///< a new sample that cannot widen, under the load: its stresses
   double density_in_oedometer = 0;         ///< kg/m^3
   std::vector<Compression> triaxial = {};  ///< of cylinders under lateral stresses of the same fractions of the load

@@ -67,6 +67,34 @@ TEST(HopperDesign, UniformStrengthArchesByItself) {
   EXPECT_NEAR(rathole_diameter(law, 5000, weight), 4.3 * 0.5 * strength / weight, 1e-9);
 }
 
+TEST(HopperDesign, ARatholeHasTheStrengthOfItsMajorConsolidation) {
+  // A flow function f_c = 0.555 kPa + 0.173 sigma_1 of 30 degrees: cement of the program, by f_c = 2 (a_0 + kappa s),
+  // sigma_1 = (2 + kappa) s + a_0.
+  CriticalStateParameters cement = powder(304, 0.189);
+  cement.static_friction = std::tan(30 * degree);
+  const double weight = 14509, strength = 555 + 0.173 * 33800;
+  EXPECT_NEAR(rathole_diameter(cement, 33800, weight), 4.3 * std::tan(30 * degree) * strength / weight, 0.005);
+  EXPECT_NEAR(rathole_diameter(cement, 33800, weight), 1.095, 0.01);
+}
+
+TEST(HopperDesign, TheOutletIsSoughtFromLowStressUpwards) {
+  // Weak friction: under large loads delta falls below what any hopper's field bears, under low ones grains flow.
+  auto law = powder(100, 0.1);
+  law.static_friction = 0.3;
+  const double weight = 1000 * gravity, theta = 54 * degree;
+  EXPECT_TRUE(std::isinf(flow_factor(HopperShape::wedge, theta, 0.2, 15 * degree)));
+  const CriticalOutlet outlet = critical_outlet(HopperShape::wedge, theta, 0.2, law, weight);
+  EXPECT_LT(outlet.major, 200);
+  EXPECT_NEAR(outlet.major, outlet.factor * outlet.strength, 1e-6 * outlet.major);
+  EXPECT_LT(outlet.width, outlet.widest);
+  EXPECT_TRUE(std::isfinite(outlet.widest)) << "delta falls with the load";
+  law.static_friction = 0.9, law.consolidation_strength = 1;
+  const CriticalOutlet none = critical_outlet(HopperShape::cone, 10 * degree, 0.2, law, weight);
+  EXPECT_TRUE(std::isinf(none.width));
+  EXPECT_EQ(none.major, 0) << "no stress of the search's end";
+  EXPECT_EQ(none.strength, 0);
+}
+
 TEST(HopperDesign, TheOutletIsWhereFlowFunctionAndFlowFactorMeet) {
   const auto law = powder(100, 0.1);
   const double weight = 1000 * gravity, theta = 20 * degree;

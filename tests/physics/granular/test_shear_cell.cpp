@@ -46,8 +46,8 @@ TEST(ShearCell, FindsTheClosedFormsOfTheLaw) {
       // f_c: 2 c cos/(1 - sin) with tan = M of the locus; of a compressed sample with sin = M; of a cylinder.
       const double slope = std::atan(m);
       EXPECT_NEAR(test.locus.strength, 2 * c * std::cos(slope) / (1 - std::sin(slope)), 0.01 * test.locus.strength);
-      EXPECT_NEAR(test.strength_in_plane_strain, 2 * m * a / (1 - m), 0.01 * test.strength_in_plane_strain);
-      EXPECT_NEAR(test.strength_of_cylinder, 3 * m * a / (std::sqrt(3.0) - m), 0.01 * test.strength_of_cylinder);
+      EXPECT_NEAR(test.strength_in_plane_strain, 2 * c / (1 - m), 0.01 * test.strength_in_plane_strain);
+      EXPECT_NEAR(test.strength_of_cylinder, 3 * c / (std::sqrt(3.0) - m), 0.01 * test.strength_of_cylinder);
       // A triaxial sample: q = 3^(1/2) M (p + a), p = lateral + q/3.
       for (const Compression& sample : test.triaxial) {
         const double q = std::sqrt(3.0) * m * (sample.lateral + a) / (1 - m / std::sqrt(3.0));
