@@ -66,11 +66,11 @@ void read_input(std::string key, std::vector<Problem>& problems, Read&& read) {
   try {
     std::forward<Read>(read)();
   } catch (const InputError& error) {
-    for (Problem problem : error.problems()) {
-      Problem place{.where = problem.where, .line = problem.line, .column = problem.column, .key = problem.key};
-      place.what = problem.what;
-      problems.push_back(
-          {.key = key, .what = to_string(place), .allowed = problem.allowed, .nearest = problem.nearest});
+    for (Problem of_file : error.problems()) {
+      Problem problem{
+          .key = key, .allowed = std::exchange(of_file.allowed, {}), .nearest = std::exchange(of_file.nearest, {})};
+      problem.what = to_string(of_file);
+      problems.push_back(std::move(problem));
     }
   } catch (const FileError& error) {
     problems.push_back({.key = std::move(key),

@@ -102,13 +102,14 @@ double across_bed(const continuum::Setup& setup) {
 }
 
 /// With as many levels, up to some, as leave enough particles across the bed; without any where particles of several
-/// sizes cannot be.
+/// sizes cannot be; with air only a case that says so has levels.
 CaseFile with_levels(const CaseFile& file, int max, const ReadSetup& read) {
   for (int levels = max; levels > 0; --levels) try {
       CaseFile changed = with(file, fmt::format("levels.count={}", levels));
       const auto setup = read(changed);
-      if (across_bed(*setup) >= static_cast<double>(across_vessel << levels)) return changed;
-    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a case without an outlet, or with air
+      if (!setup->given.air.enabled && across_bed(*setup) >= static_cast<double>(across_vessel << levels))
+        return changed;
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a case without an outlet
     }
   return file;
 }

@@ -47,6 +47,12 @@ inline bool is_being_filled(const std::vector<Inlet>& inlets, double time) {
   return std::any_of(inlets.begin(), inlets.end(),
                      [&](const Inlet& inlet) { return inlet.clock == InletClock::start && time < inlet.end(); });
 }
+/// Whether they come in now.
+inline bool is_pouring(const std::vector<Inlet>& inlets, double time) {
+  return std::any_of(inlets.begin(), inlets.end(), [&](const Inlet& inlet) {
+    return inlet.clock == InletClock::start && inlet.from <= time && time < inlet.end();
+  });
+}
 
 /// The key of the nth of [[inlet]], from 0.
 std::string inlet_key(std::size_t n, std::string_view name);

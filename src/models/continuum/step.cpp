@@ -271,7 +271,7 @@ bool Step::lists_hold() const {
 }
 
 void Step::damping() const {
-  if (!p.settle.damping_time || s.gate_time >= 0 || is_being_filled(p.inlets, s.time)) return;
+  if (!p.settle.damping_time || s.gate_time >= 0 || is_pouring(p.inlets, s.time)) return;
   const double left = std::exp(-dt / *p.settle.damping_time);
   const FixedPoint point(s.impulse_unit);
   const FixedVector taken = accumulate(
