@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The law critical-state from what beads do by discrete elements: sheared at constant volume and at constant pressure, and in
-layers on a slope (validation/bead-shear/*.in); of beads that stick its cohesion. Fits with intervals of 95 %. Tests:
+layers on a slope (inputs/*.in); of beads that stick its cohesion. Fits with intervals of 95 %. Tests:
 tests/python/test_bead_shear.py."""
 import math
 

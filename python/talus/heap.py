@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Heaps: the angle of one, and the friction of a law whose heap has an angle."""
 import math
+from pathlib import Path
 
 import numpy as np
 
 from talus.program import simulate
 
+CASE = Path(__file__).resolve().parent / "inputs" / "heap.toml"
 AGEING = 0.08   # friction that grains at rest have beyond that in flow: the law's own
 SCATTER = 1.0   # degrees, of heaps that are poured again, by others, and of particles of another size
 NEAR = 0.5      # degrees, how near the last heap must be
@@ -31,7 +33,7 @@ def slope_of(positions, spacing):
 
 
 def settings_of(material, friction, density):
-    """Of validation/materials/heap.toml for a material's file: a floor at least as rough as the grains, poured at the same volume a
+    """Of CASE for a material's file: a floor at least as rough as the grains, poured at the same volume a
     second whatever the bulk density, kg/m^3."""
     return {"grains.material": str(material), "walls.coefficient": max(0.5, round(friction, 6)),
             "inlet.1.rate": f"{40e-3 * density / 900:.6g} kg/s", "inlet.1.to": "6 s", "run.end": "6.5 s"}

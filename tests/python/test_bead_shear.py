@@ -17,6 +17,7 @@ import numpy as np  # noqa: E402
 import settle  # noqa: E402
 import shear  # noqa: E402
 from talus import beads  # noqa: E402
+from talus.lab import lammps  # noqa: E402
 
 
 class Fits(unittest.TestCase):
@@ -154,8 +155,8 @@ class Cohesion(unittest.TestCase):
         self.assertTrue((np.diff(table["packing"]) < 0).all())
 
     def test_layers_get_the_attraction_of_the_cells(self):
-        text = cohesion.sticky((cohesion.HERE / "incline.in").read_text(encoding="utf-8"))
-        cell = (cohesion.HERE / "cohesive.in").read_text(encoding="utf-8")
+        text = cohesion.sticky(lammps.script("incline.in").read_text(encoding="utf-8"))
+        cell = lammps.script("cohesive.in").read_text(encoding="utf-8")
         [style] = [line for line in cell.splitlines() if line.startswith("pair_style")]
         self.assertEqual(text.count(style), 1)
         self.assertEqual(text.count("granular 1 hooke"), text.count("granular 2 dmt 1 0 0.3 ${energy}"))

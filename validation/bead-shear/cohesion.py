@@ -10,7 +10,7 @@ usage: cohesion.py run FOLDER    cells, with LAMMPS (ten minutes on one core), t
 import math
 
 import numpy as np
-from shear import HERE, lammps, main, states, write_rows
+from shear import HERE, engine, lammps, main, states, write_rows
 from talus.beads import (COHESIVE_PRESSURE, GRAVITY, PLANE, SLOW, STILL, angles, cohesion_estimates, cohesive_friction,
                          cohesive_state, fit_friction, friction_between, strength)
 
@@ -51,7 +51,7 @@ def sticky(text):
 def slopes(folder):
     folder.mkdir(parents=True, exist_ok=True)
     script = (folder / "incline-cohesive.in").resolve()
-    script.write_text(sticky((HERE / "incline.in").read_text(encoding="utf-8")), encoding="utf-8")
+    script.write_text(sticky(engine.script("incline.in").read_text(encoding="utf-8")), encoding="utf-8")
     rows = []
     for bond, seed, first, between, last in LAYERS:
         place = folder / f"bond-{bond:g}-s{seed}"

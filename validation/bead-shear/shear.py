@@ -31,8 +31,9 @@ DENSE = ((0.2, 0.58, 1), (0.2, 0.60, 1), (0.2, 0.60, 2), (0.2, 0.60, 3), (0.2, 0
 
 
 def lammps(place, script, **variables):
-    """Runs a script in a folder of its own, unless that was done."""
-    engine.run([engine.Job(HERE / script, variables, place.resolve())], 1)
+    """Runs a script, of this folder or of the package, in a folder of its own, unless that was done."""
+    path = HERE / script
+    engine.run([engine.Job(path if path.exists() else engine.script(script), variables, place.resolve())], 1)
 
 
 def write_rows(path, columns, rows):

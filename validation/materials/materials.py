@@ -17,6 +17,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "drum")]
 import study  # noqa: E402
 import talus  # noqa: E402
+from talus import heap  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 SETUP, BANDS = REFERENCE["setup"], REFERENCE["bands"]
@@ -72,7 +73,7 @@ def runs_of(material, kinds=KINDS):
 def cases(options):
     for material in options.material:
         for kind, _, folder, settings in runs_of(material, options.only):
-            yield HERE / f"{kind}.toml", options.out / folder, settings
+            yield heap.CASE if kind == "heap" else HERE / f"{kind}.toml", options.out / folder, settings
 
 
 def deposit(x, spacing):

@@ -40,7 +40,7 @@ def settings_of(options, angle):
 
 def cases(options):
     for angle in options.angles:
-        yield HERE / "heap.toml", options.out / f"heap-{angle}", settings_of(options, angle)
+        yield heap.CASE, options.out / f"heap-{angle}", settings_of(options, angle)
 
 
 def measure(options):

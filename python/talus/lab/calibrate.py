@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from talus import heap, powder
-from talus.ask import ask, find_project, write
+from talus.ask import ask, write
 from talus.lab.bead_file import read_beads
 from talus.lab.command import DONE, arguments, run_command, say
 from talus.lab.from_beads import from_beads
@@ -115,9 +115,6 @@ def from_heap(options, grain_density, diameter, problems):
     density = quantity(options.bulk_density, "--bulk-density", "kg/m3", problems)
     if options.bulk_density is None:
         problems.append(problem("--bulk-density", "missing", allowed='such as "620 kg/m3"'))
-    case = find_project("validation/materials/heap.toml")
-    if case is None:
-        problems.append(problem("validation/materials/heap.toml", "is not there: run the command in the project's folder"))
     if problems:
         raise InputError(problems)
     degrees, folder = math.degrees(angle), Path(options.out).with_suffix("")
@@ -136,7 +133,7 @@ def from_heap(options, grain_density, diameter, problems):
         candidate = folder / f"heap_{number}.toml"
         ask("claim", folders=[folder], files=[])
         write({candidate: material_of(powder.Estimate(friction, friction, friction)).text()})
-        return heap.poured(case, folder / f"heap_{number}", heap.settings_of(candidate.resolve(), friction, density))
+        return heap.poured(heap.CASE, folder / f"heap_{number}", heap.settings_of(candidate.resolve(), friction, density))
 
     return material_of(powder.Estimate(*heap.friction_of(degrees, heap_of, say)))
 

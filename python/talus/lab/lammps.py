@@ -7,10 +7,11 @@ import shutil
 from pathlib import Path
 from typing import NamedTuple
 
-from talus.ask import ProgramFault, find_project
+import talus
+from talus.ask import ProgramFault
 from talus.lab import jobs
 from talus.lab.command import INTERRUPTED, NOT_MET, NUMERICAL
-from talus.trouble import InputError, RunError, problem
+from talus.trouble import InputError, problem
 
 
 class Job(NamedTuple):
@@ -44,11 +45,8 @@ class Job(NamedTuple):
 
 
 def script(name):
-    """The path of validation/bead-shear/NAME. Raises RunError if it is not there."""
-    path = find_project(f"validation/bead-shear/{name}")
-    if path is None:
-        raise RunError(f"validation/bead-shear/{name}: is not there: run the command in the project's folder")
-    return path.resolve()
+    """The path of an input of this package."""
+    return Path(talus.__file__).resolve().parent / "inputs" / name
 
 
 def job(folder, name, cost, **variables):

@@ -7,15 +7,16 @@
 
 namespace talus::air {
 
+bool comes_in_at(const Parameters& p, const Vector3& x, std::size_t across) {
+  for (std::size_t b = 0; b < 3; ++b)
+    if (b != across && ((p.inflow_low && x[static_cast<int>(b)] < (*p.inflow_low)[b]) ||
+                        (p.inflow_high && x[static_cast<int>(b)] > (*p.inflow_high)[b])))
+      return false;
+  return true;
+}
+
 void AirFlow::find_inflow() {
   const Grid& grid = apertures_.grid;
-  const auto holds = [&](const Vector3& x, std::size_t across) {
-    for (std::size_t b = 0; b < 3; ++b)
-      if (b != across && ((parameters_.inflow_low && x[static_cast<int>(b)] < (*parameters_.inflow_low)[b]) ||
-                          (parameters_.inflow_high && x[static_cast<int>(b)] > (*parameters_.inflow_high)[b])))
-        return false;
-    return true;
-  };
   for (std::size_t a = 0; a < 3; ++a)
     for (const int side : {0, 1}) {
       const std::size_t number = 2 * a + static_cast<std::size_t>(side);
@@ -27,7 +28,7 @@ void AirFlow::find_inflow() {
       for (int k = low[2]; k < high[2]; ++k)
         for (int j = low[1]; j < high[1]; ++j)
           for (int i = low[0]; i < high[0]; ++i) {
-            if (!holds(grid.centre(i, j, k), a)) continue;
+            if (!comes_in_at(parameters_, grid.centre(i, j, k), a)) continue;
             const std::size_t cell = grid.index(i, j, k);
             inflow_.push_back({.axis = a,
                                .face = cell + static_cast<std::size_t>(side * grid.stride(axis)),

@@ -67,6 +67,7 @@ std::vector<Problem> check(const ModelParameters& p) {
                           .allowed = "both or neither"});
   if (!(p.box.width > 0 && p.box.depth > 0 && p.box.height > 0 && p.cell > 0)) return problems;
   const Grid grid = grid_of(p);
+  for (Problem& problem : check_inflows(p.gas, grid)) problems.push_back(std::move(problem));
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[static_cast<std::size_t>(axis)];
     if (is_periodic(static_cast<std::size_t>(2 * axis)) && count > 1 && count % 2 == 1)

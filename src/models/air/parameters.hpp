@@ -79,6 +79,10 @@ struct Parameters {
 
 /// Walls that move across themselves, faces that move and are no walls, inflow that does not come in or cannot leave.
 std::vector<Problem> check(const Parameters& parameters);
+/// The inflows none of whose cells air.inflow_low and inflow_high hold: no air would come in.
+std::vector<Problem> check_inflows(const Parameters& parameters, const Grid& grid);
+/// Whether air comes in at a place of an inflow across an axis. \param x m
+bool comes_in_at(const Parameters& parameters, const Vector3& x, std::size_t across);
 
 inline constexpr RenamedKey renamed_keys[] = {
     {"air.longest_step", "air.max_step"},

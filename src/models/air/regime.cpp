@@ -86,10 +86,34 @@ void check_inflow(const Parameters& p, std::size_t face, const char* name, std::
                         .allowed = "another face \"open\", or air.compressibility = \"isothermal\""});
 }
 
+constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
+
+/// Whether the middle of a cell beside the face is within the box of the inflow.
+bool has_cell(const Parameters& p, const Grid& grid, std::size_t face) {
+  std::array<int, 3> low{}, high = grid.count;
+  const std::size_t axis = face / 2;
+  low[axis] = face % 2 == 0 ? 0 : grid.count[axis] - 1, high[axis] = low[axis] + 1;
+  for (int k = low[2]; k < high[2]; ++k)
+    for (int j = low[1]; j < high[1]; ++j)
+      for (int i = low[0]; i < high[0]; ++i)
+        if (comes_in_at(p, grid.centre(i, j, k), axis)) return true;
+  return false;
+}
+
 }  // namespace
 
+std::vector<Problem> check_inflows(const Parameters& p, const Grid& grid) {
+  std::vector<Problem> problems;
+  for (std::size_t face = 0; face < 6; ++face)
+    if (p.boundaries.kind[face] == FlowBoundary::inflow && !has_cell(p, grid, face))
+      problems.push_back({.key = p.inflow_low ? "air.inflow_low" : "air.inflow_high",
+                          .what = fmt::format("no middle of a cell at the face air.{} is within the box", names[face]),
+                          .allowed = fmt::format("a box that holds one of these cells, {:.4g} mm long",
+                                                 1e3 * std::max({grid.spacing.x, grid.spacing.y, grid.spacing.z}))});
+  return problems;
+}
+
 std::vector<Problem> check(const Parameters& p) {
-  constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
   std::vector<Problem> problems;
   for (std::size_t face = 0; face < 6; ++face) {
     const auto& velocity = p.wall_velocity[face];

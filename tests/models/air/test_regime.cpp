@@ -95,5 +95,17 @@ TEST(CheckOfAir, AsksOfAnInflowThatItComesInAndGoesOut) {
   EXPECT_THAT(wrong_keys(p), IsEmpty());
 }
 
+TEST(CheckOfAir, AsksOfTheBoxOfAnInflowThatItHoldsACell) {
+  Parameters p;
+  p.boundaries.kind[4] = FlowBoundary::inflow;
+  const Grid grid{.count = {4, 1, 4}, .low = {}, .spacing = {0.01, 0.01, 0.01}};
+  EXPECT_THAT(check_inflows(p, grid), IsEmpty());
+  p.inflow_low = {0.011, 0, 0}, p.inflow_high = {0.019, 0.01, 0};
+  EXPECT_THAT(check_inflows(p, grid), IsEmpty()) << "the middle at 15 mm; heights do not count";
+  p.inflow_low = {0.016, 0, 0}, p.inflow_high = {0.024, 0.01, 0};
+  ASSERT_EQ(check_inflows(p, grid).size(), 1u);
+  EXPECT_EQ(check_inflows(p, grid)[0].key, "air.inflow_low");
+}
+
 }  // namespace
 }  // namespace talus::air

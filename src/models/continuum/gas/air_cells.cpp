@@ -115,6 +115,7 @@ std::vector<Problem> check_air(const Parameters& p) {
   };
   if (auto problem = check_number_of_cells(p)) return {std::move(*problem)};
   const Grid grid = air_grid(p);
+  for (Problem& problem : air::check_inflows(p.air.gas, grid)) problems.push_back(std::move(problem));
   const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
   constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
   for (std::size_t face = 0; face < 6; ++face)
