@@ -46,14 +46,13 @@ std::vector<NamedValue> groups(const Setup& setup) {
   const Parameters& p = setup.given;
   const double density = setup.density, sound = setup.sound_speed, count = continuum::bed_count(setup);
   const double particles = std::round(continuum::share_of_particles(setup) * count);
-  const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"particles", "1", particles},
                                     {"mass", "kg", setup.lattice.mass * count * setup.copies},
                                     {"bed_height", "m", setup.has_no_bed() ? 0 : setup.depth},
                                     {"sound_speed", "m/s", sound},
                                     {"time_step", "s", continuum::time_step_of(setup)},
-                                    {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+  if (const double fall = speed_of_fall(setup); fall > 0) groups.push_back({"mach_number_of_fall", "1", fall / sound});
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(setup.copies)});
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&

@@ -276,7 +276,8 @@ double depth_that_may_be_reached(const continuum::Layout& layout, double end) {
   return std::max(before, std::min(high - low, before + mass / (p.bed.packing * p.grains.density * area)));
 }
 
-/// The largest speed of a free fall from where grains begin to the lowest position that they can reach, m/s.
+}  // namespace
+
 double speed_of_fall(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
   double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
@@ -296,8 +297,6 @@ double speed_of_fall(const continuum::Layout& layout) {
     largest = std::max(largest, speed(inlet.centre[2], low, inlet.velocity));
   return largest;
 }
-
-}  // namespace
 
 double shear_over_bulk(std::optional<GrainMaterial> material) {
   if (!material) return 0.6;

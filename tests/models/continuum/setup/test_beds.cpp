@@ -158,6 +158,16 @@ Parameters layers() {
   return p;
 }
 
+TEST(Beds, AreAsDeepAsTheyAreWithoutTheAirBetweenThem) {
+  Parameters p = layers();
+  p.beds[1].bottom = 8 * spacing, p.beds[1].height = spacing;
+  EXPECT_NEAR(depth_of_grains(p), 6 * spacing, 1e-12);
+  const std::vector<Extent> heights = heights_of_beds(p);
+  ASSERT_EQ(heights.size(), 2u);
+  EXPECT_NEAR(heights[0].high, 5 * spacing, 1e-12);
+  EXPECT_NEAR(heights[1].low, 8 * spacing, 1e-12);
+}
+
 TEST(Beds, HaveTheirTagsAndVelocities) {
   const Parameters p = layers();
   ASSERT_THAT(check(p), IsEmpty());
