@@ -121,6 +121,9 @@ class Analyze(ProgramTest):
         self.assertAlmostEqual(found["mean"], (3 * 0.09 + 0.24) / 16)
         self.assertEqual(sum(row["count"] for row in table), 16)
         self.assertEqual([row["count"] for row in table if row["count"]], [6, 3, 3, 3, 1])
+        (self.folder / "points.csv").write_text("x [m],y [m]\n0,0\n1,0\n")
+        self.assertEqual(self.quantities("--as", "histogram", "--column", "position_x")[0]["count"], 2, "without radii")
+        self.assertIn("--radius", self.talus("analyze", "points.csv", "--as", "heads", status=2).stderr)
 
     def test_faults(self):
         self.assertIn("did you mean 'heads'?", self.talus("analyze", "points.csv", "--as", "haeds", status=2).stderr)

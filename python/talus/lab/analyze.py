@@ -67,9 +67,9 @@ def _columns(path):
             **{name: (snapshot[name].units, np.asarray(snapshot[name])) for name in snapshot}}
 
 
-def points_of(name, columns, mean_radius=None):
+def points_of(name, columns, mean_radius=None, needs_radius=True):
     """Raises InputError if there are no points, if a place is not finite or a radius not above 0, or if neither the points nor
-    the caller give a radius."""
+    the caller give a radius that is needed."""
     faults, position = [], columns["position"][1]
     radii, a = np.empty(0), mean_radius
     if len(position) == 0:
@@ -81,9 +81,9 @@ def points_of(name, columns, mean_radius=None):
         a = mean_radius or mean(radii)
     elif mean_radius:
         radii = np.full(len(position), mean_radius)
-    else:
+    elif needs_radius:
         faults.append(problem(name, "has no column 'radius'", allowed='--radius, such as "5 mm"'))
-    if not faults and not (np.linalg.norm(position - position[0], axis=1) < FARTHEST_OVER_RADIUS * a).all():
+    if not faults and a and not (np.linalg.norm(position - position[0], axis=1) < FARTHEST_OVER_RADIUS * a).all():
         faults.append(problem(name, "has places that are not finite, or a million radii apart",
                               allowed="see --radius, and the units"))
     if faults:
@@ -260,7 +260,7 @@ def main():
         faults += error.problems
     if faults:
         raise InputError(faults)
-    points = points_of(options.file, columns, radius)
+    points = points_of(options.file, columns, radius, needs_radius=name != "histogram")
     with np.errstate(divide="ignore", invalid="ignore"):
         measured = MEASURES[name](points, options.column, options.bins or 20)
     say(to_json(options.file, name, *measured) if options.json else to_text(*measured))
