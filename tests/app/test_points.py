@@ -25,6 +25,10 @@ class Points(ProgramTest):
             "[slope]\nangle = \"45 deg\"", "[slope]\nenabled = false"))
         (self.folder / "points.csv").write_text(points)
 
+    def test_an_angle_beside_a_direction_of_gravity_is_not_used(self):
+        said = self.talus("check", "case.toml", "--set", "slope.angle=30 deg", "--set", "gravity.direction=[1, 0, -1]").stdout
+        self.assertIn("slope.angle: is not used", said)
+
     def test_radii_by_their_usual_names(self):
         """From a file of another program: columns id and r, no units."""
         for points, radii in (("id,x,y,z,r\n1,0,0,0,0.002\n2,0.008,0,0,0.003\n", [0.002, 0.003]),

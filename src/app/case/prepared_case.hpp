@@ -53,7 +53,7 @@ struct PreparedCase {
   ParameterList parameters;  ///< of the model and of the run, with the values they have
   std::map<std::string, std::string, std::less<>> filled_in;  ///< keys whose values follow from others, and from what
   std::string instruction_set;                                ///< that the choice resolves to on this machine
-  std::vector<std::string> remarks;  ///< what was made of the files that the case names, a line each
+  std::vector<std::string> remarks;  ///< what was made of files and keys of the case, a line each
   std::string inputs;                ///< digest of what the files hold that the case names; empty if it names none
 
   /// Opens the folder of this case's run for analysis. \throws FileError

@@ -249,6 +249,9 @@ PreparedCase prepare_cloud(const CaseFile& file) {
     p.particles.count = static_cast<std::int64_t>(given->radius.size());
   }
 
+  if (p.gravity.direction && file.contains("slope.angle"))
+    remarks.emplace_back("slope.angle: is not used, gravity.direction says where gravity points");
+
   PreparedCase prepared = prepared_case("cloud", read);
   if (given) prepared.inputs = digest_of(*given);
   prepared.remarks = std::move(remarks);
