@@ -113,7 +113,7 @@ class BadCase(InputTest):
         (self.folder / "case.toml").write_text(POINTS)
         [problem] = self.problems("run", "case.toml")
         self.assertTrue(problem.startswith("case.toml:5: particles.file: points.csv: cannot open: No such file"), problem)
-        for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^points\.csv:3: y: "),
+        for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^case\.toml:5: particles\.file: points\.csv:3: y: "),
                               ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:5: particles\.file: .*more than a million"),
                               ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:5: particles\.file: .*plane of mot"),
                               ("x [m],radius [m]\n0,-1\n", r"^case\.toml:5: particles\.file: 1 radii"),
