@@ -104,9 +104,9 @@ TEST(ArtificialStress, ALatticeBearsWhatItBore) {
       }
   EXPECT_NEAR(of_springs / of_tension, 0, 1e-3);
   EXPECT_EQ(artificial_stress(1, 2.0, 1.0), 0);
-  EXPECT_GT(artificial_stress(1, 2.0, 1.2), 0);             // nearer: apart
+  EXPECT_GT(artificial_stress(1, 2.0, 1.2), 0);            // nearer: apart
   EXPECT_EQ(artificial_stress(1, 2.0, 4.0), 2.0 * 4 * 1);  // where they meet, no more than at f^2 = 2
-  EXPECT_LT(artificial_stress(1, 2.0, 0.9), 0);             // farther: together
+  EXPECT_LT(artificial_stress(1, 2.0, 0.9), 0);            // farther: together
 }
 
 TEST(CoulombFriction, TakesAtMostMuTimesTheNormalImpulse) {
