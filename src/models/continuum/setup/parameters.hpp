@@ -279,8 +279,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
   gated(Parameter{"settle.damping_time", dimension::time, above(0),
                   "time constant of an artificial damping of the velocities until the gate opens, but not while inlets "
-                  "fill the "
-                  "vessel; left out: no damping"},
+                  "fill the vessel; left out: no damping"},
         p.settle.damping_time);
   gated(Parameter{"settle.viscosity_alpha", dimension::none, at_least(0),
                   "sph.viscosity_alpha until the gate opens; left out: the same, and 0.1 where that follows from the "
