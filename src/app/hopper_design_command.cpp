@@ -42,6 +42,16 @@ struct DesignInput {
   double half_angle = 0, outlet = 0, diameter = 0, height = 0;
 };
 
+/// Of a wall that is given by its friction, a number or an angle; 0: it is not.
+double wall_coefficient(const std::string& text) {
+  const auto wall = parse_quantity(text);
+  if (!wall) return 0;
+  constexpr double max_coefficient = 3;
+  const bool is_angle = wall->dimension == dimension::angle && wall->value < std::atan(max_coefficient);
+  const double coefficient = is_angle ? std::tan(wall->value) : wall->value;
+  return (is_angle || wall->dimension == dimension::none) && coefficient < max_coefficient ? coefficient : 0;
+}
+
 DesignInput read_input(const DesignWords& words) {
   DesignInput input;
   std::vector<Problem> problems;
@@ -68,8 +78,8 @@ DesignInput read_input(const DesignWords& words) {
   p.gravity.acceleration =
       number("--gravity", words.gravity, dimension::acceleration, any, "an acceleration such as \"9.81 m/s2\"");
   // A case that says no more than that: its material's values, and the friction on its walls.
-  const auto wall = parse_quantity(words.wall);
-  const bool is_number = wall && wall->dimension == dimension::none && wall->value > 0 && wall->value < 3;
+  const double coefficient = wall_coefficient(words.wall);
+  const bool is_number = coefficient > 0;
   std::string text = fmt::format("[grains]\nmaterial = {}\n", talus::quoted(words.material));
   if (!is_number) text += fmt::format("[walls]\nmaterial = {}\n", talus::quoted(words.wall));
   const CaseFile file = CaseFile::from_text(text, "");
@@ -80,15 +90,18 @@ DesignInput read_input(const DesignWords& words) {
                         .allowed = "one that talus materials lists, or a file that ends in .toml"});
   for (Problem problem : filled.problems) {
     if (problem.where.empty()) problem.where = problem.key == "walls.material" ? "--wall" : "--material";
-    if (problem.where == "--wall") problem.allowed = "a wall of the material's file, or a coefficient such as 0.35";
+    if (problem.where == "--wall")
+      problem.allowed = "a wall of the material's file, a coefficient such as 0.35 or an angle such as \"20 deg\"";
     problem.key = problem.where.starts_with("--") ? "" : problem.key;
     problems.push_back(std::move(problem));
   }
-  if (is_number) p.walls.coefficient = wall->value;
+  if (is_number) p.walls.coefficient = coefficient;
   if (!is_number && !choice_in<continuum::WallMaterial>(file, "walls.material"))
-    problems.push_back({.where = "--wall " + words.wall,
-                        .what = "is no wall",
-                        .allowed = "steel, acrylic, glass, concrete, or a coefficient of friction such as 0.35"});
+    problems.push_back(
+        {.where = "--wall " + words.wall,
+         .what = "is no wall",
+         .allowed =
+             "steel, acrylic, glass, concrete, a coefficient of friction such as 0.35, or its angle, \"20 deg\""});
   if (const auto material = material_file(file, problems); material && !is_number && filled.problems.empty()) {
     const Parameter key{.key = fmt::format("walls.{}.adhesion", words.wall), .dimension = dimension::pressure};
     if (const auto value = value_in(*material, key.key, key, value_type<double>(), problems))
@@ -306,7 +319,7 @@ void add_hopper_design_command(CLI::App& app, Action& action) {
       "hopper-design", "design a hopper for a material: half angles, critical outlets, discharge, loads");
   command->add_option("--material", words->material, "one that talus materials lists, or the file of another")
       ->required();
-  command->add_option("--wall", words->wall, "steel, acrylic, glass, concrete, or a coefficient of friction")
+  command->add_option("--wall", words->wall, "steel, acrylic, glass, concrete, or the friction as a number or an angle")
       ->capture_default_str();
   command->add_option("--half-angle", words->half_angle, "of the hopper, from the vertical; 3 deg below the limit");
   command->add_option("--outlet", words->outlet, "diameter, or width of a slot, of which the discharge is told");

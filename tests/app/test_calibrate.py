@@ -265,6 +265,9 @@ class Calibrate(ProgramTest):
         words = ("hopper-design", "--material", "my-powder.toml", "--outlet", "300 mm", "--half-angle")
         self.assertRegex(self.said(*words, "25 deg"), r"discharge, coarse grains +\S+ t/h +funnel")
         self.assertRegex(self.said(*words, "20 deg"), r"discharge, coarse grains +\S+ t/h +\S+ t/h")
+        of_angle, of_number = (self.said("hopper-design", "--material", "glass-beads", "--wall", wall)
+                               for wall in ("16.699244 deg", "0.3"))
+        self.assertEqual(of_angle.split("\n")[1:], of_number.split("\n")[1:])
         said = self.said("hopper-design", "--material", "glass-beads")
         self.assertIn("below 30 deg the closed forms are", " ".join(said.split()))
 
