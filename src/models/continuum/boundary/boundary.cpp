@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/continuum/boundary/walls_beyond_faces.hpp"
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/setup/parameters.hpp"
 
@@ -14,6 +15,9 @@ namespace talus::continuum {
 namespace {
 
 using Openings = std::vector<Wall::Opening>;
+
+constexpr double reach_beyond_faces =
+    4;  // spacings of the coarsest particles: what acts on one, with its list's margin
 
 /// From `begin` to `end` along a wall. The rim of an opening is solid: one that ends where the wall does has none
 /// there.
@@ -56,36 +60,31 @@ std::vector<Wall> walls_of(const Parameters& p) {
   return walls;
 }
 
-Domain domain_of(const Parameters& p) {
-  Box box{.low = {0, 0, 0},
+Box box_of(const Parameters& p) {
+  return {.low = {0, 0, 0},
           .high = {p.box.width, p.box.depth, p.box.height},
           .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
+}
+
+Domain domain_of(const Parameters& p) {
+  Box box = box_of(p);
   const std::optional<Sector> sector = sector_of(p);
   if (!sector) return Domain(box, walls_of(p), min_distance_of_layers(p));
   std::fill_n(box.faces.begin(), 4, FaceKind::open);  // no grains come so far
   return Domain(box, {}, 0, sector);
 }
 
-/// Whether all of a triangle lies behind a plane of symmetry: no grain meets it.
-bool is_behind_mirror(const Parameters& p, const Triangle& t) {
-  const FaceKind kinds[] = {p.box.left, p.box.right, p.box.front, p.box.rear};
-  for (std::size_t face = 0; face < std::size(kinds); ++face) {
-    if (p.box.sector || kinds[face] != FaceKind::symmetry) continue;
-    const int axis = static_cast<int>(face / 2);
-    const double end = axis == 0 ? p.box.width : p.box.depth;
-    if (std::all_of(t.corner.begin(), t.corner.end(),
-                    [&](const Vector3& x) { return face % 2 == 0 ? x[axis] < 0 : x[axis] > end; }))
-      return true;
-  }
-  return false;
-}
-
 Surface surface_of(const Parameters& p) {
   if (p.vessel.empty()) return {};
   std::vector<Triangle> triangles;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (const Triangle& t : triangles_of(p, n))
-      if (!is_behind_mirror(p, t)) triangles.push_back(t);
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    const std::vector<Triangle> part = triangles_of(p, n);
+    triangles.insert(triangles.end(), part.begin(), part.end());
+  }
+  if (!p.box.sector) {
+    const double reach = std::ldexp(reach_beyond_faces, static_cast<int>(p.levels.count)) * p.bed.spacing;
+    triangles = with_walls_beyond_faces(std::move(triangles), box_of(p), reach);
+  }
   return Surface(std::move(triangles), p.vessel.size());
 }
 

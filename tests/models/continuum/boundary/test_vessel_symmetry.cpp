@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "models/continuum/cases.hpp"
 #include "models/continuum/vessel_parts.hpp"
@@ -76,6 +78,33 @@ TEST(VesselSymmetry, PlanesBearWhatTheOtherHalfWould) {
   EXPECT_NEAR(-face[0].x, sideways, 0.05 * sideways);
   EXPECT_NEAR(-face[2].y, sideways, 0.05 * sideways);
   expect_closed(s, "settled");
+}
+
+/// A bed on a plate, which ends at the faces or goes on beyond them.
+double max_pressure_on_plate(FaceKind faces, double beyond) {
+  Parameters p = room(8, 8, 20);
+  make_granular(p);
+  p.box.left = p.box.right = p.box.front = p.box.rear = faces;
+  const double edge = 8 + 2 * beyond;
+  p.vessel = {plate("ground", {-beyond, -beyond, 3}, {edge, 0, 0}, {0, edge, 0})};
+  p.bed.bottom = 3 * spacing, p.bed.height = 8 * spacing;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  p.gate.opens = GateOpens::when_settled;
+  p.settle = {.speed = 2e-2, .duration = 0.01, .max_time = 2, .loading_time = {}, .damping_time = 5e-3};
+  EXPECT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(2);
+  Continuum model = started(p, team);
+  settled_wall_forces(model, team, 0.03);
+  const std::vector<double>& pressure = model.state().material.stress[2];
+  return *std::max_element(pressure.begin(), pressure.end());
+}
+
+TEST(VesselSymmetry, AWallThatEndsAtAFaceHoldsParticlesAsOneThatGoesOn) {
+  for (const FaceKind faces : {FaceKind::symmetry, FaceKind::periodic, FaceKind::wall}) {
+    const double whole = max_pressure_on_plate(faces, 6);
+    EXPECT_NEAR(max_pressure_on_plate(faces, 0), whole, 0.01 * whole) << choice_name(faces);
+  }
 }
 
 }  // namespace
