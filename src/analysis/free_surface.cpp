@@ -134,11 +134,21 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
   return surface;
 }
 
-double surface_angle(const FreeSurface& surface, double middle) {
+namespace {
+
+/// The tangent of a line's angle with what is level. \param level dZ/dx of that
+double against(double level, double slope) {
+  return (slope - level) / (1 + slope * level);
+}
+
+}  // namespace
+
+double surface_angle(const FreeSurface& surface, double middle, double tilt) {
   constexpr double far = std::numeric_limits<double>::infinity();
   const auto left = line(surface, -far, middle), right = line(surface, middle, far);
   if (!left && !right) return none;
-  return std::atan(0.5 * (std::abs((left ? left : right)->slope) + std::abs((right ? right : left)->slope)));
+  const auto steepness = [level = std::tan(tilt)](const auto& half) { return std::abs(against(level, half->slope)); };
+  return std::atan(0.5 * (steepness(left ? left : right) + steepness(right ? right : left)));
 }
 
 namespace {
@@ -179,15 +189,20 @@ double HeapSlope::angle() const {
   return std::atan(std::abs(slope));
 }
 
-std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length) {
-  const std::vector<double> z = smoothed(surface.z);
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length, double tilt) {
+  const double level = std::tan(tilt);
+  std::vector<double> z = smoothed(surface.z);
+  for (std::size_t n = 0; n < z.size(); ++n) z[n] -= level * surface.x[n];
   std::vector<HeapSlope> slopes;
   for (std::size_t first = 0; first + 1 < z.size();) {
     const double direction = z[first + 1] - z[first];
     std::size_t last = first;
     // A comparison with nan is false: gaps end a stretch.
     while (last + 1 < z.size() && (z[last + 1] - z[last]) * direction > 0) ++last;
-    if (surface.x[last] - surface.x[first] > min_length) slopes.push_back(fitted(surface, first, last));
+    if (surface.x[last] - surface.x[first] > min_length) {
+      slopes.push_back(fitted(surface, first, last));
+      slopes.back().slope = against(level, slopes.back().slope);
+    }
     first = std::max(last, first + 1);
   }
   return slopes;

@@ -54,13 +54,13 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
 
 /// The surface's slope as a whole: the angle whose tangent is the mean of the sizes of the slopes of two least-squares
 /// lines, through the heights left and right of `middle`; rad. Of one half alone if the other has fewer than three
-/// heights; nan if both have.
-double surface_angle(const FreeSurface& surface, double middle);
+/// heights; nan if both have. \param tilt of what is level, rising along x, rad: slopes are against it
+double surface_angle(const FreeSurface& surface, double middle, double tilt = 0);
 
 /// A stretch of a surface that rises or falls all along.
 struct HeapSlope {
   double from = 0, to = 0;  ///< x, m
-  double slope = 0;         ///< dZ/dx of the least-squares line through its middle 80 % in x
+  double slope = 0;         ///< tangent of the angle of the least-squares line through its middle 80 % in x
 
   double length() const { return to - from; }
   double angle() const;  ///< against the horizontal, rad, >= 0
@@ -68,7 +68,8 @@ struct HeapSlope {
 
 /// The slopes longer than `min_length` along x. Where they begin and end is decided on the 5-point mean of the
 /// heights (shorter near gaps and ends); the lines go through the heights themselves. \param min_length m
-std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length);
+/// \param tilt of what is level, rising along x, rad: slopes rise and fall against it
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length, double tilt = 0);
 
 /// Angles of repose, rad; nan where there is no slope.
 struct ReposeAngle {

@@ -65,10 +65,12 @@ struct OutletSetting {
 /// What the case says. SI.
 struct HopperSetting {
   HopperShape shape;
-  Domain domain;             ///< as at the start: the gate shut
+  Domain domain;             ///< as at the start: the gate shut; of a sector the whole
+  Domain computed = domain;  ///< with its sector
   double particle_mass = 0;  ///< kg
   double particles = 0;      ///< at the start
   double grain_density = 0, grain_diameter = 0, gravity = 0;
+  double tilt = 0;                              ///< of what is level against the floor, rising along x, rad
   std::optional<double> smoothing_length = {};  ///< of all particles; left out: of each from its density
   bool air = false;
   bool has_floor = true;     ///< what falls out of the outlet stays in the bin

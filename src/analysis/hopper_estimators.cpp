@@ -70,13 +70,13 @@ const FreeSurface& surface_in(const HopperSnapshot& s, Where where) {
 
 ReposeAngle repose_in(const HopperSnapshot& s, Where where) {
   const double least = min_slope_in_spacings * s.shape().spacing;
-  return repose_angle(heap_slopes(surface_in(s, where), least), s.shape().middle());
+  return repose_angle(heap_slopes(surface_in(s, where), least, s.setting.tilt), s.shape().middle());
 }
 
 double quiescent_speed(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before) return none;
-  const std::vector<double> speed = mean_speeds(*before, s.now);
+  const std::vector<double> speed = mean_speeds(*before, s.now, s.setting.computed);
   return quantile_of(speed, without_nan(s.deep(), speed), most);
 }
 

@@ -17,7 +17,7 @@ ReposeAngle repose_in(const HopperSnapshot& s, Where where);
 
 template <Where where>
 double surface_angle_in(const HopperSnapshot& s) {
-  return surface_angle(surface_in(s, where), s.shape().middle()) / (std::numbers::pi / 180);
+  return surface_angle(surface_in(s, where), s.shape().middle(), s.setting.tilt) / (std::numbers::pi / 180);
 }
 template <Where where, double ReposeAngle::*angle>
 double repose_angle_in(const HopperSnapshot& s) {

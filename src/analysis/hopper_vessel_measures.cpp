@@ -200,7 +200,7 @@ double share_in_motion(const HopperRun& run, const Window& window) {
 double share_that_moves(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before || !s.shape().outlet) return none;
-  const std::vector<double> speed = mean_speeds(*before, s.now);
+  const std::vector<double> speed = mean_speeds(*before, s.now, s.setting.computed);
   const auto positions = s.now.positions();
   const MassRatios ratios = s.now.mass_ratios();
   const double outlet = s.shape().outlet->height, rests = hardly * mean_speed_above(outlet, s.now, speed);

@@ -162,7 +162,24 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
   return gradients;
 }
 
-std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now) {
+namespace {
+
+double displacement(const Vector3& from, const Vector3& to, const Domain& domain) {
+  Vector3 d = to - from;
+  for (const int axis : {0, 1, 2})
+    if (domain.box().is_periodic(axis)) {
+      const double extent = domain.box().extent(axis);
+      d[axis] -= extent * std::round(d[axis] / extent);
+    }
+  double least = norm(d);
+  if (const auto& sector = domain.sector())
+    for (const int angles : {-1, 1}) least = std::min(least, norm(to - sector->turned(from, angles)));
+  return least;
+}
+
+}  // namespace
+
+std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now, const Domain& domain) {
   const double time = now.time - before.time;
   if (!(time > 0)) throw std::invalid_argument("the first snapshot must be the earlier one");
   std::unordered_map<std::int64_t, Vector3> position;
@@ -172,7 +189,7 @@ std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now) {
   for (std::size_t i = 0; i < identity.size(); ++i) {
     const auto found = position.find(identity[i]);
     speed.push_back(found == position.end() ? std::numeric_limits<double>::quiet_NaN()
-                                            : norm(now.positions()[i] - found->second) / time);
+                                            : displacement(found->second, now.positions()[i], domain) / time);
   }
   return speed;
 }

@@ -76,9 +76,10 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
 /// there, if the box is not periodic along x and z.
 std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& centre, double reach);
 
-/// Size of each particle's displacement since an earlier snapshot over the time between, m/s, in the order of `now`.
+/// Size of each particle's displacement since an earlier snapshot over the time between, m/s, in the order of `now`;
+/// the least one of those by which a particle that passed a periodic face or a side of a sector may have come there.
 /// Particles are known by the column "identity"; nan for one that was not there.
-/// \throws std::invalid_argument if `before` is not earlier
-std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now);
+/// \param domain of the run, with its sector \throws std::invalid_argument if `before` is not earlier
+std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now, const Domain& domain);
 
 }  // namespace talus

@@ -135,5 +135,21 @@ TEST(HeapSlopes, EndAtGaps) {
   EXPECT_NEAR(surface_angle(surface, 30) / degree, 45, 1e-9);
 }
 
+TEST(SurfaceAngle, IsAgainstWhatIsLevel) {
+  constexpr double tilt = 15 * degree;
+  FreeSurface surface;
+  for (int n = 0; n <= 100; ++n) {
+    const double x = n - 50.0, flank = (x < 0 ? 25 : -20) * degree;  // against the level
+    surface.x.push_back(x), surface.z.push_back(x * std::tan(flank + tilt));
+  }
+  const std::vector<HeapSlope> slopes = heap_slopes(surface, 20, tilt);
+  ASSERT_EQ(slopes.size(), 2u);
+  const ReposeAngle found = repose_angle(slopes, 0);
+  EXPECT_NEAR(found.left / degree, 25, 1e-6);
+  EXPECT_NEAR(found.right / degree, 20, 1e-6);
+  EXPECT_NEAR(found.steepest / degree, 25, 1e-6);
+  EXPECT_NEAR(std::tan(surface_angle(surface, 0, tilt)), 0.5 * (std::tan(25 * degree) + std::tan(20 * degree)), 1e-3);
+}
+
 }  // namespace
 }  // namespace talus

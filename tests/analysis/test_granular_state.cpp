@@ -80,11 +80,25 @@ TEST(MeanSpeeds, FollowGrainsByTheirIdentity) {
   test::GrainColumns before({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1500, 2500, 0.98);
   test::GrainColumns now({{2, 0, 0.04}, {0, 0, 0.02}, {5, 5, 5}}, 1500, 2500, 1.0);
   now.identity = {2, 0, 7};
-  const auto speed = mean_speeds(before.view(), now.view());
+  const Domain space({.low = {0, 0, 0}, .high = {9, 9, 9}, .faces = {}});
+  const auto speed = mean_speeds(before.view(), now.view(), space);
   EXPECT_NEAR(speed[0], 2, 1e-12);
   EXPECT_NEAR(speed[1], 1, 1e-12);
   EXPECT_TRUE(std::isnan(speed[2]));
-  EXPECT_THROW(mean_speeds(now.view(), before.view()), std::invalid_argument);
+  EXPECT_THROW(mean_speeds(now.view(), before.view(), space), std::invalid_argument);
+}
+
+TEST(MeanSpeeds, ThroughAPeriodicFaceOrASideOfASectorAreThoseOfTheShorterWay) {
+  using enum FaceKind;
+  test::GrainColumns before({{8.9, 0, 0}, {1, 0, 0}}, 1500, 2500, 0);
+  test::GrainColumns now({{0.1, 0, 0}, {1, 0.1, 0}}, 1500, 2500, 1);
+  const Domain ring({.low = {0, 0, 0}, .high = {9, 9, 9}, .faces = {periodic, periodic, open, open, open, open}});
+  EXPECT_NEAR(mean_speeds(before.view(), now.view(), ring)[0], 0.2, 1e-12);
+  EXPECT_NEAR(mean_speeds(before.view(), now.view(), ring)[1], 0.1, 1e-12);
+  test::GrainColumns side({{2, 0.05, 0}}, 1500, 2500, 0), other({{-0.05, 2, 0}}, 1500, 2500, 1);
+  const Domain quarter({.low = {-9, -9, 0}, .high = {9, 9, 9}, .faces = {open, open, open, open, open, open}}, {}, 0,
+                       Sector({0, 0, 0}, 4));
+  EXPECT_NEAR(mean_speeds(side.view(), other.view(), quarter)[0], 0, 1e-12) << "turned by the sector's angle";
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   const std::size_t n = std::max<std::size_t>(1, nearest_point(frames.time, *flow.at));
   const std::size_t earlier = nearest_point(std::span(frames.time).first(n), frames.time[n] - setting.averaging_time);
   const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
-  const std::vector<double> speed = mean_speeds(before.view(), now.view());
+  const std::vector<double> speed = mean_speeds(before.view(), now.view(), setting.computed);
   const auto positions = now.view().positions();
   const double mean = hopper::mean_speed_above(setting.shape.outlet->height, now.view(), speed);
   if (!(mean > 0)) return false;

@@ -56,7 +56,11 @@ std::string span_text(const VesselBounds& b) {
   const double unit = most >= 10 ? 1 : 1e-3;
   const auto along = [&](int axis) {
     const auto number = [&](double x) { return std::round(1e6 * x / unit) / 1e6 + 0.0; };
-    return fmt::format("{:.4g}..{:.4g}", number(b.low[axis]), number(b.high[axis]));
+    const double low = number(b.low[axis]), high = number(b.high[axis]);
+    // Four digits of the extent itself, far away too.
+    const double digits = std::log10(std::max({std::abs(low), std::abs(high), 1e-300}) / std::max(high - low, 1e-9));
+    const int precision = std::clamp(4 + static_cast<int>(std::ceil(digits)), 4, 15);
+    return fmt::format("{:.{}g}..{:.{}g}", low, precision, high, precision);
   };
   return fmt::format("{} x {} x {} {}", along(0), along(1), along(2), unit == 1 ? "m" : "mm");
 }
@@ -94,7 +98,7 @@ Vector3 shift_into(const Vector3& box, const VesselBounds& b) {
 std::string move_text(const VesselPart& v, const Vector3& shift, const VesselBounds& b) {
   const auto length = [&](int axis) {
     const double mm = 1e3 * (v.move[static_cast<std::size_t>(axis)] + shift[axis]);
-    return fmt::format("\"{:.6g} mm\"", std::round(1e6 * mm) / 1e6 + 0.0);
+    return fmt::format("\"{:.15g} mm\"", std::round(1e3 * mm) / 1e3 + 0.0);
   };
   return fmt::format("move = [{}, {}, {}], with which it spans {}", length(0), length(1), length(2),
                      span_text({b.low + shift, b.high + shift}));
