@@ -23,9 +23,12 @@ template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"model", {}, {}, "which model: cloud, continuum or air", true}, p.model);
   visit(Parameter{"title", {}, {}, "one line for pictures and reports"}, p.title);
-  visit(Parameter{"run.end", dimension::time, above(0),
-                  "simulated time at which the run ends; of a model with a gate counted from its opening", true},
-        p.end);
+  visit(
+      Parameter{
+          "run.end", dimension::time, above(0),
+          "simulated time at whose first step past it the run ends; of a model with a gate counted from its opening",
+          true},
+      p.end);
   visit(Parameter{"output.snapshots", dimension::time, at_least(0),
                   "simulated time between snapshots: each is taken at the end of the first step past its time; 0: a "
                   "twentieth of run.end"},

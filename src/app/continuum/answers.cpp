@@ -244,7 +244,7 @@ struct LoadTable {
 
 /// The area over which a pressure is a mean.
 std::string area_text(const LoadTable& of, const LoadsOfWall& loads, std::size_t wall, std::size_t row) {
-  if (!of.extent) return "all that the bed covers";
+  if (!of.extent) return "all that the bed covers at the start";
   const double height = loads.at("high", row) - loads.at("low", row);
   return height > 0 ? fmt::format("band {} high, {}", length_text(height), of.extent(wall)) : "its whole area";
 }

@@ -141,6 +141,7 @@ std::optional<Level> level_of_beds(const continuum::Setup& setup) {
 void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Setup& setup) {
   const continuum::Parameters& p = setup.given;
   if (!p.vessel.empty() || p.wedge.half_angle || !p.plates.empty() || run.series.rows() < 2) return;
+  if (p.gravity.tilt > 0 && p.box.left != FaceKind::periodic) return;  // it slides: what it covers is not known
   const std::optional<Level> beds = level_of_beds(setup);
   if (!beds) return;
   const double t = run.setting.averaging_time, end = run.end(), height = beds->high - beds->low;

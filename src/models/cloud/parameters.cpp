@@ -154,8 +154,7 @@ Scales scales(const Parameters& p) {
   } else {
     s.gravity = hydrodynamics::downhill(p.slope.angle);
   }
-  s.driving =
-      p.slope.enabled && !p.gravity.direction ? std::sin(p.slope.angle) : component_in_plane(s.gravity, p.motion);
+  s.driving = p.slope.enabled ? std::hypot(s.gravity.x, s.gravity.y) : component_in_plane(s.gravity, p.motion);
   s.mean_weight = hydrodynamics::buoyant_weight(a, p.particles.density, p.fluid.density, p.gravity.acceleration);
   s.stokes_speed = std::abs(s.mean_weight) * s.driving / (6 * pi * p.fluid.viscosity * a);
   s.stokes_time = a / s.stokes_speed;
@@ -180,6 +179,9 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
       {"inertia of a grain", fmt::format("{:.3g}", inertia),
        "relaxation time over a_p/v_s; the model leaves inertia out, which holds for less than about 0.1",
        inertia > 0.1}};
+  if (p.particles.density < p.fluid.density)
+    lines.push_back({"grain density over the fluid's", fmt::format("{:.3g}", p.particles.density / p.fluid.density),
+                     "below 1 grains rise: speeds are negative, and the front, the largest x, is their tail", true});
   if (p.contact.enabled)
     lines.push_back({"contact over weight (gamma, Eq. 9)", fmt::format("{:.3g}", s.contact_ratio),
                      "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart",

@@ -298,9 +298,9 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
   constexpr double max_packing = 0.74, slack = 1.02;
-  const double at_start = record.series.has("packing_max") && record.series.rows() > 0
+  const double at_start = !setup_->has_no_bed() && record.series.has("packing_max") && record.series.rows() > 0
                               ? record.series.column("packing_max").front()
-                              : std::nan("");
+                              : 0;
   const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(*setup_);
   const std::vector<RegimeLine> of_run = {
@@ -308,10 +308,11 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
       {"sound speed", fmt::format("{:.4g} m/s", c), "upper bound, used for the time step"},
       {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over the sound speed", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),
-       fmt::format(
-           "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains; "
-           "the lattice of the start, beside walls and about a sector's axis, has up to {:.3f}",
-           at_start),
+       "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains" +
+           (at_start > 0 ? fmt::format("; the lattice of the start, beside walls and about a sector's axis, has up to "
+                                       "{:.3f}",
+                                       at_start)
+                         : ""),
        packing > (setup_->given.bed.given ? max_packing : std::max(max_packing, slack * at_start))},
       {"share of slow flow", fmt::format("{:.3f}", slow),
        "inertial_share: particles with an inertial number below 0.01; laws without a dependence on the rate hold there",

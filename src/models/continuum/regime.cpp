@@ -144,12 +144,18 @@ void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
   }
 }
 
+constexpr double max_depth_below_box = 5;  // heights of the box
+
 void add_walls_beyond_box(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     if (const double share = share_in_box(p, n); share < notable_share)
       lines.push_back({"share of " + name_of(p, n) + " within the box", fmt::format("{:.2g}", share),
                        extents_text(p, n) + ": are place and unit right?", true});
+    else if (const double depth = -bounds_of(p, n).low.z; depth > max_depth_below_box * p.box.height)
+      lines.push_back({"depth of " + name_of(p, n) + " below the box", fmt::format("{:.4g} m", depth),
+                       extents_text(p, n) + ": a number for missing data among its heights?", true});
+  }
 }
 
 /// Where grains may leave the vessel of a file before any gate opens.

@@ -108,6 +108,17 @@ class Numbering {
 
 }  // namespace
 
+std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, double bound, int side) {
+  std::vector<Vector3> left;
+  for (std::size_t n = 0; n < polygon.size(); ++n) {
+    const Vector3 &a = polygon[n], &b = polygon[(n + 1) % polygon.size()];
+    const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
+    if (at_a >= 0) left.push_back(a);
+    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) left.push_back(a + (at_a / (at_a - at_b)) * (b - a));
+  }
+  return left;
+}
+
 TriangleEdges::TriangleEdges(std::span<const Triangle> triangles, const std::vector<bool>& left_out) {
   Numbering number(3 * triangles.size(), places_);
   const auto counts = [&](std::size_t t) { return left_out.empty() || !left_out[t]; };

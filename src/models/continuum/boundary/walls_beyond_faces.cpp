@@ -46,13 +46,9 @@ std::map<std::uint32_t, Contact> contacts(const std::vector<Triangle>& triangles
 /// Calls visit(triangle) for the pieces of a triangle that are nearer to a face than `reach`.
 template <class Visit>
 void for_each_piece_near(const Triangle& t, const Side& face, double reach, Visit&& visit) {
-  std::vector<Vector3> polygon;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vector3 &a = t.corner[c], &b = t.corner[(c + 1) % 3];
-    const double from = reach - face.inwards(a), to = reach - face.inwards(b);
-    if (from >= 0) polygon.push_back(a);
-    if ((from > 0 && to < 0) || (from < 0 && to > 0)) polygon.push_back(a + (from / (from - to)) * (b - a));
-  }
+  const int outwards = face.side == 0 ? -1 : 1;
+  const std::vector<Vector3> polygon =
+      clipped({t.corner.begin(), t.corner.end()}, face.axis, face.bound - outwards * reach, outwards);
   for (std::size_t c = 2; c < polygon.size(); ++c) {
     const Triangle piece{{polygon[0], polygon[c - 1], polygon[c]}, t.patch};
     if (norm(piece.area()) > 0) visit(piece);

@@ -31,18 +31,6 @@ double largest(const Vector3& x) {
   return std::max({x.x, x.y, x.z});
 }
 
-/// What of a convex polygon lies above (side 1) or below (-1) a bound along an axis.
-std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, double bound, int side) {
-  std::vector<Vector3> left;
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const Vector3 &a = polygon[n], &b = polygon[(n + 1) % polygon.size()];
-    const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
-    if (at_a >= 0) left.push_back(a);
-    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) left.push_back(a + (at_a / (at_a - at_b)) * (b - a));
-  }
-  return left;
-}
-
 double area_of(const std::vector<Vector3>& polygon) {
   Vector3 area;
   for (std::size_t n = 2; n < polygon.size(); ++n)
