@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "analysis/discharge.hpp"
@@ -233,14 +234,37 @@ double settled_stress_ratio(const HopperRun& run, const Window&) {
   return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio) : none;
 }
 
-double balance_error(const HopperRun& run, const Window& window) {
-  const double to = run.gate_time + time_of(window, run), from = to - averages(run).load;
-  double mass = run.setting.mass();  // that is there in the middle of the window
+namespace {
+
+/// Of all grains in the middle of a stretch of time, N.
+double weight_between(const HopperRun& run, double from, double to) {
+  double mass = run.setting.mass();
   for (const auto& [column, sign] : {std::pair{"fed_mass", 1.0}, std::pair{"removed_mass", -1.0}})
     if (const Curve curve = run.curve(column); !curve.time.empty())
       mass +=
           sign * value_at(curve, std::clamp(0.5 * (from + to) - run.gate_time, curve.time.front(), curve.time.back()));
-  return weight_balance_error(run.series, mass * run.setting.gravity, from, to);
+  return mass * run.setting.gravity;
+}
+
+}  // namespace
+
+double balance_error(const HopperRun& run, const Window& window) {
+  const double to = run.gate_time + time_of(window, run), from = to - averages(run).load;
+  return weight_balance_error(run.series, weight_between(run, from, to), from, to);
+}
+
+double share_on_air(const HopperRun& run, const Window& window) {
+  const double to = run.gate_time + time_of(window, run), from = to - averages(run).load;
+  return wall_force(run.series, "air", from, to).z / weight_between(run, from, to);
+}
+
+double pressure_range_of_air(const HopperRun& run, const Window& window) {
+  const double to = time_of(window, run), from = to - averages(run).load;
+  const auto mean = [&](const char* column) {
+    const std::vector<double> values = part(run.curve(column), from, to).value;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  return mean("air_pressure_max") - mean("air_pressure_min");
 }
 
 }  // namespace talus::hopper

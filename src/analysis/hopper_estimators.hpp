@@ -106,6 +106,8 @@ double floor_arrival(const HopperRun& run, const Window& window);
 double settled_force(const HopperRun& run);
 /// Of the last snapshot before the gate opened, or at its opening.
 double settled_stress_ratio(const HopperRun& run, const Window& window);
+double share_on_air(const HopperRun& run, const Window& window);
+double pressure_range_of_air(const HopperRun& run, const Window& window);
 double balance_error(const HopperRun& run, const Window& window);
 /// Those measures of hopper_measures() that are of a vessel in space.
 std::vector<Measure<HopperRun>> hopper_vessel_measures();

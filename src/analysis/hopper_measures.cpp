@@ -129,7 +129,7 @@ const std::vector<Row> of_grains = {
         "slope of the hopper's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
         "and its right half, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {plane_outlet, while_it_flows}),
-    Row("weight_balance_error", "1", "upward force of all walls, from their impulses over T, over M g, less 1",
+    Row("weight_balance_error", "1", "upward force of all walls and the air, from impulses over T, over M g, less 1",
         {balance_error}, {always}),
     Row("quiescent_speed", "m/s",
         "95th percentile of the speeds of the particles deeper than 3 h below the surface, and not within 3 h of the "
@@ -169,6 +169,10 @@ const std::vector<Row> of_grains = {
         {[](const Run& r, const Window&) { return last(r, "fed_mass"); }}, {comes_or_goes}),
     Row("removed_mass", "kg", "mass that was taken away, to the end of the run",
         {[](const Run& r, const Window&) { return last(r, "removed_mass"); }}, {comes_or_goes}),
+    Row("air_lift", "1", "upward force of the air on the grains, drag and pressure, over their weight, mean over T",
+        {share_on_air}, {air}),
+    Row("air_pressure_difference", "Pa", "largest less smallest pressure of the air, mean over T",
+        {pressure_range_of_air}, {air}),
     Row("particle_reynolds_max", "1",
         "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the "
         "mean "

@@ -322,6 +322,11 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
+  if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
+    answers.push_back({"Air bears at the end",
+                       fmt::format("{:.1f} % of the weight, by a pressure difference of {}", 100 * lift,
+                                   pressure_text(value_of(quantities, "air_pressure_difference"))),
+                       ""});
   const std::string unknown = flows || !std::isfinite(left) ? std::string() : too_little_left(1 - left);
   const SiloShape shape(setup);
   const LoadTable of_vessel{

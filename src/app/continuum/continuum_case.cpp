@@ -53,6 +53,11 @@ std::vector<NamedValue> groups(const Setup& setup) {
                                     {"time_step", "s", continuum::time_step_of(setup)},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   if (const double fall = speed_of_fall(setup); fall > 0) groups.push_back({"mach_number_of_fall", "1", fall / sound});
+  if (p.air.enabled) {
+    const Grid grid = continuum::air_grid(p);
+    groups.insert(groups.end(),
+                  {{"air_cells", "1", static_cast<double>(grid.cells())}, {"air_cell_height", "m", grid.spacing.z}});
+  }
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(setup.copies)});
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&

@@ -251,7 +251,7 @@ std::string write_hopper(const Answers& a) {
   if (air)
     text += fmt::format(
         "# The {}hopper is open above. Boundaries of the air: docs/guidance.md.\n[air]\nenabled = true\n"
-        "continuity = \"air-alone\"\nformulation = \"model-b\"\n\n",
+        "drag = \"ergun-wen-yu\"\n\n",
         removal ? "" : "bin is closed, the ");
   return text + ending(end, 50, 5000);
 }

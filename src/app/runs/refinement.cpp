@@ -51,6 +51,9 @@ CaseFile refined_case(const CaseFile& file) {
              fmt::format("at least {:.4g} mm, or two runs with both divided", 1e3 * min_depth * *spacing));
   CaseFile finer = file;
   finer.set("bed.spacing=" + format_quantity(*spacing / refinement, "m"), "--refine");
+  for (const char* key : {"air.cell", "air.cell_depth"})
+    if (const auto cell = length_in(file, key))
+      finer.set(fmt::format("{}={}", key, format_quantity(*cell / refinement, "m")), "--refine");
   return finer;
 }
 

@@ -7,11 +7,17 @@
 
 namespace talus::air {
 
-bool comes_in_at(const Parameters& p, const Vector3& x, std::size_t across) {
-  for (std::size_t b = 0; b < 3; ++b)
-    if (b != across && ((p.inflow_low && x[static_cast<int>(b)] < (*p.inflow_low)[b]) ||
-                        (p.inflow_high && x[static_cast<int>(b)] > (*p.inflow_high)[b])))
+bool comes_in_at(const Parameters& p, const Grid& grid, std::size_t face, const std::array<int, 3>& cell) {
+  Vector3 x = grid.centre(cell[0], cell[1], cell[2]);
+  const auto across = static_cast<int>(face / 2);
+  const double half = 0.5 * grid.spacing[across];
+  x[across] += face % 2 == 0 ? -half : half;
+  for (const int b : {0, 1, 2}) {
+    const auto n = static_cast<std::size_t>(b);
+    const double slack = b == across ? half : 0;  // of the face itself
+    if ((p.inflow_low && x[b] < (*p.inflow_low)[n] - slack) || (p.inflow_high && x[b] > (*p.inflow_high)[n] + slack))
       return false;
+  }
   return true;
 }
 
@@ -28,7 +34,7 @@ void AirFlow::find_inflow() {
       for (int k = low[2]; k < high[2]; ++k)
         for (int j = low[1]; j < high[1]; ++j)
           for (int i = low[0]; i < high[0]; ++i) {
-            if (!comes_in_at(parameters_, grid.centre(i, j, k), a)) continue;
+            if (!comes_in_at(parameters_, grid, number, {i, j, k})) continue;
             const std::size_t cell = grid.index(i, j, k);
             inflow_.push_back({.axis = a,
                                .face = cell + static_cast<std::size_t>(side * grid.stride(axis)),

@@ -67,7 +67,11 @@ CellRow AirFlow::cells_from(std::ptrdiff_t begin, const Solids& solids, const Fa
 }
 
 void AirFlow::measure_drag_of_row(std::ptrdiff_t begin, const CellRow& row) {
-  find_drag_of_row(apertures_.grid.count[0], parameters_.drag, medium_, row, drag_.data() + begin);
+  double* const drag = drag_.data() + begin;
+  find_drag_of_row(apertures_.grid.count[0], parameters_.drag, medium_, row, drag);
+  if (grains_share() == 0 && coupling::is_of_pressure_drops(parameters_.drag))
+    for (std::ptrdiff_t c = 0; c < apertures_.grid.count[0]; ++c)
+      drag[c] = coupling::drag_alone(drag[c], 1 - row.fraction[c]);
 }
 
 /// What bounds the step in `count` cells, at the drag that has been measured.
@@ -125,7 +129,7 @@ NumericalError::Report AirFlow::step_limit(const Solids& solids, const AirState&
   report.term = by_motion ? fmt::format("Courant number of the air, which crosses {:.3g} cells a second", crossing)
                           : fmt::format("drag on the grains, which stops them at {:.3g} 1/s, Eq. 20", response);
   report.advice = by_motion
-                      ? "larger air cells, a larger air.courant"
+                      ? "larger air cells; a slower inflow or a smaller difference of pressure"
                       : "larger air cells, a stiffer law of the grains; a box in which grains do not pile up there";
   return report_of_one(part_.ranks,
                        first.least[0] < part_.ranks.rank() || !is_here ? NumericalError::Report{} : report);

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "numerics/grid/face_apertures.hpp"
+#include "numerics/run_record.hpp"
 #include "physics/air/gas.hpp"
 #include "physics/coupling/drag.hpp"
 
@@ -81,8 +82,13 @@ struct Parameters {
 std::vector<Problem> check(const Parameters& parameters);
 /// The inflows none of whose cells air.inflow_low and inflow_high hold: no air would come in.
 std::vector<Problem> check_inflows(const Parameters& parameters, const Grid& grid);
-/// Whether air comes in at a place of an inflow across an axis. \param x m
-bool comes_in_at(const Parameters& parameters, const Vector3& x, std::size_t across);
+/// Whether air comes in at a face of the box through a cell beside it.
+bool comes_in_at(const Parameters& parameters, const Grid& grid, std::size_t face, const std::array<int, 3>& cell);
+/// Ranges that walls which face each other and inflows keep to, or not.
+std::vector<RegimeLine> regime_of_faces(const Parameters& parameters, const Grid& grid);
+
+/// The most that the scheme moves a jet without overshoot: 0.1 % at 0.5, 11 % at 0.9 cells a step.
+inline constexpr double max_courant = 0.7;
 
 inline constexpr RenamedKey renamed_keys[] = {
     {"air.longest_step", "air.max_step"},
@@ -139,7 +145,7 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
                     "upwind weight of the convection of the air: 0 the printed fourth-order central scheme, 1 the "
                     "third-order upwind-biased one"},
           p.upwind);
-  visit(Parameter{"air.courant", dimension::none, above(0),
+  visit(Parameter{"air.courant", dimension::none, between(1e-6, max_courant),
                   "largest number of cells that the air may move in one of its steps"},
         p.courant);
   visit(Parameter{"air.max_step", dimension::time, above(0), "upper limit of the step of the air"}, p.max_step);

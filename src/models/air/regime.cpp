@@ -15,16 +15,59 @@ namespace talus::air {
 
 namespace {
 
+constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
+
+Vector3 extent_of(const Grid& grid) {
+  Vector3 extent;
+  for (const int axis : {0, 1, 2}) extent[axis] = grid.spacing[axis] * grid.count[static_cast<std::size_t>(axis)];
+  return extent;
+}
+
 /// The narrowest distance between two walls that face each other, m; infinite where there are none.
-double narrowest_passage(const ModelParameters& p) {
-  const std::array<double, 3> extent{p.box.width, p.box.depth, p.box.height};
+double narrowest_passage(const Parameters& p, const Vector3& extent) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& kind = p.gas.boundaries.kind;
+    const auto& kind = p.boundaries.kind;
     if (kind[2 * axis] == FlowBoundary::no_slip && kind[2 * axis + 1] == FlowBoundary::no_slip)
-      narrowest = std::min(narrowest, extent[axis]);
+      narrowest = std::min(narrowest, extent[static_cast<int>(axis)]);
   }
   return narrowest;
+}
+
+/// How fast the largest difference of pressure between open faces drives air, by Bernoulli, m/s.
+double speed_by_pressure(const Parameters& p) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::size_t face = 0; face < 6; ++face)
+    if (p.boundaries.kind[face] == FlowBoundary::open) {
+      const double pressure = p.boundaries.pressure[face];
+      least = std::min(least, pressure), most = std::max(most, pressure);
+    }
+  return most > least ? std::sqrt(2 * (most - least) / p.density()) : 0;
+}
+
+/// Cells of a face through which air comes in.
+std::int64_t cells_of_inflow(const Parameters& p, const Grid& grid, std::size_t face) {
+  std::array<int, 3> low{}, high = grid.count;
+  const std::size_t axis = face / 2;
+  low[axis] = face % 2 == 0 ? 0 : grid.count[axis] - 1, high[axis] = low[axis] + 1;
+  std::int64_t cells = 0;
+  for (int k = low[2]; k < high[2]; ++k)
+    for (int j = low[1]; j < high[1]; ++j)
+      for (int i = low[0]; i < high[0]; ++i) cells += comes_in_at(p, grid, face, {i, j, k}) ? 1 : 0;
+  return cells;
+}
+
+/// What of a face lies within the box of the inflow, m^2.
+double area_of_inflow(const Parameters& p, const Grid& grid, std::size_t face) {
+  double area = 1;
+  for (std::size_t b = 0; b < 3; ++b) {
+    if (b == face / 2) continue;
+    const double extent = extent_of(grid)[static_cast<int>(b)];
+    const double low = p.inflow_low ? std::max(0.0, (*p.inflow_low)[b]) : 0,
+                 high = p.inflow_high ? std::min(extent, (*p.inflow_high)[b]) : extent;
+    area *= std::max(0.0, high - low);
+  }
+  return area;
 }
 
 }  // namespace
@@ -33,29 +76,48 @@ double given_speed(const ModelParameters& p) {
   if (p.start.flow == InitialFlow::taylor_green) return p.start.speed;
   double speed = 0;
   for (const auto& v : p.gas.wall_velocity) speed = std::max(speed, std::hypot(v[0], v[1], v[2]));
-  return speed;
+  return std::max(speed, speed_by_pressure(p.gas));
+}
+
+std::vector<RegimeLine> regime_of_faces(const Parameters& p, const Grid& grid) {
+  constexpr double max_difference = 0.05;
+  std::vector<RegimeLine> lines;
+  if (const double passage = narrowest_passage(p, extent_of(grid)); std::isfinite(passage)) {
+    const double knudsen = mean_free_path(p.viscosity, p.pressure, p.temperature) / passage;
+    lines.push_back({"Knudsen number", fmt::format("{:.3g}", knudsen),
+                     "mean free path of the molecules over the distance of two walls; above about 0.01 the air slips "
+                     "along walls, which the model leaves out",
+                     knudsen > 0.01});
+  }
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (p.boundaries.kind[face] != FlowBoundary::inflow || !(p.inflow_low || p.inflow_high)) continue;
+    const auto axis = static_cast<int>(face / 2);
+    const double area = static_cast<double>(cells_of_inflow(p, grid, face)) * grid.face_area(axis),
+                 asked = area_of_inflow(p, grid, face), speed = std::abs(p.wall_velocity[face][face / 2]);
+    lines.push_back({fmt::format("air that comes in at the face {}", names[face]),
+                     fmt::format("{:.4g} m3/s", area * speed),
+                     fmt::format("through whole cells, {:.4g} of the {:.4g} mm2 that inflow_low and inflow_high hold",
+                                 area * 1e6, asked * 1e6),
+                     std::abs(area - asked) > max_difference * asked});
+  }
+  return lines;
 }
 
 std::vector<RegimeLine> regime_of_case(const ModelParameters& p) {
   const double rho = p.gas.density(), speed = given_speed(p);
   const double mach = speed / std::sqrt(1.4 * p.gas.pressure / rho);
   const double reynolds = rho * speed * grid_of(p).spacing.x / p.gas.viscosity;
-  std::vector<RegimeLine> lines = {{"Mach number of the case", fmt::format("{:.3g}", mach),
-                                    "speed of the walls, of what comes in or of the start over that of sound; the air "
-                                    "is taken for incompressible, up to about 0.3",
-                                    mach > 0.3},
-                                   {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
-                                    "speed of the walls, of what comes in or of the start times cell over kinematic "
-                                    "viscosity; central convection (air.upwind = 0) may "
-                                    "oscillate above 2, most where layers are thin (Patankar 1980)",
-                                    p.gas.upwind == 0 && reynolds > 2}};
-  if (const double passage = narrowest_passage(p); std::isfinite(passage)) {
-    const double knudsen = mean_free_path(p.gas.viscosity, p.gas.pressure, p.gas.temperature) / passage;
-    lines.push_back({"Knudsen number", fmt::format("{:.3g}", knudsen),
-                     "mean free path of the molecules over the distance of two walls; above about 0.01 the air slips "
-                     "along walls, which the model leaves out",
-                     knudsen > 0.01});
-  }
+  std::vector<RegimeLine> lines = {
+      {"Mach number of the case", fmt::format("{:.3g}", mach),
+       "speed of the walls, of what comes in, by differences of pressure or of the start over that of sound; the air "
+       "is taken for incompressible, up to about 0.3",
+       mach > 0.3},
+      {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
+       "speed of the walls, of what comes in, by differences of pressure or of the start times cell over kinematic "
+       "viscosity; central convection (air.upwind = 0) may "
+       "oscillate above 2, most where layers are thin (Patankar 1980)",
+       p.gas.upwind == 0 && reynolds > 2}};
+  for (RegimeLine& line : regime_of_faces(p.gas, grid_of(p))) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -83,21 +145,7 @@ void check_inflow(const Parameters& p, std::size_t face, const char* name, std::
   else if (!is_vented && p.compressibility == Compressibility::none)
     problems.push_back({.key = fmt::format("air.{}", name),
                         .what = "air comes in, and none of the faces lets it out",
-                        .allowed = "another face \"open\", or air.compressibility = \"isothermal\""});
-}
-
-constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
-
-/// Whether the middle of a cell beside the face is within the box of the inflow.
-bool has_cell(const Parameters& p, const Grid& grid, std::size_t face) {
-  std::array<int, 3> low{}, high = grid.count;
-  const std::size_t axis = face / 2;
-  low[axis] = face % 2 == 0 ? 0 : grid.count[axis] - 1, high[axis] = low[axis] + 1;
-  for (int k = low[2]; k < high[2]; ++k)
-    for (int j = low[1]; j < high[1]; ++j)
-      for (int i = low[0]; i < high[0]; ++i)
-        if (comes_in_at(p, grid.centre(i, j, k), axis)) return true;
-  return false;
+                        .allowed = "another face \"open\"; among grains also air.compressibility = \"isothermal\""});
 }
 
 }  // namespace
@@ -105,7 +153,7 @@ bool has_cell(const Parameters& p, const Grid& grid, std::size_t face) {
 std::vector<Problem> check_inflows(const Parameters& p, const Grid& grid) {
   std::vector<Problem> problems;
   for (std::size_t face = 0; face < 6; ++face)
-    if (p.boundaries.kind[face] == FlowBoundary::inflow && !has_cell(p, grid, face))
+    if (p.boundaries.kind[face] == FlowBoundary::inflow && cells_of_inflow(p, grid, face) == 0)
       problems.push_back({.key = p.inflow_low ? "air.inflow_low" : "air.inflow_high",
                           .what = fmt::format("no middle of a cell at the face air.{} is within the box", names[face]),
                           .allowed = fmt::format("a box that holds one of these cells, {:.4g} mm long",

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/setup/bed_report.hpp"
 #include "models/continuum/setup/forecast.hpp"
 
@@ -171,6 +173,37 @@ void add_rims(const Setup& setup, std::vector<RegimeLine>& lines) {
   }
 }
 
+/// Whether the air is a light gas about the grains, and its cells resolve bed and slit.
+void add_air(const Setup& setup, std::vector<RegimeLine>& lines) {
+  constexpr double max_density_ratio = 0.01, min_cells_of_bed = 8, max_difference = 0.1;
+  const Parameters& p = setup.given;
+  if (!p.air.enabled) return;
+  const Grid grid = air_grid(p);
+  const double ratio = p.air.gas.density() / p.grains.density;
+  lines.push_back({"density of the air over the grains'", fmt::format("{:.3g}", ratio),
+                   fmt::format("{:.4g} kg/m3; the air has no weight, and grains no buoyancy", p.air.gas.density()),
+                   ratio > max_density_ratio});
+  for (RegimeLine& line : air::regime_of_faces(p.air.gas, grid)) lines.push_back(std::move(line));
+  if (!setup.has_no_bed()) {
+    const double across = setup.depth / grid.spacing.z;
+    lines.push_back({"cells of the air over the bed's height", fmt::format("{:.3g}", across),
+                     fmt::format("{:.4g} mm each; with fewer than {:g} the drag on the bed is too small: its surface "
+                                 "is spread over some of them",
+                                 grid.spacing.z / millimetre, min_cells_of_bed),
+                     across < min_cells_of_bed});
+  }
+  const std::optional<Outlet> slit = p.plate.height ? slit_of(p) : std::nullopt;
+  if (!slit) return;
+  double width = 0;
+  for (int i = 0; i < grid.count[0]; ++i)
+    if (const double x = grid.centre(i, 0, 0).x; x > slit->left && x < slit->right) width += grid.spacing.x;
+  const double given = slit->right - slit->left;
+  lines.push_back({"width of the slit for the air", fmt::format("{:.4g} mm", width / millimetre),
+                   fmt::format("whole cells of {:.4g} mm; for the grains {:.4g} mm", grid.spacing.x / millimetre,
+                               given / millimetre),
+                   std::abs(width - given) > max_difference * given});
+}
+
 }  // namespace
 
 std::vector<RegimeLine> regime_of_case(const Setup& setup) {
@@ -186,6 +219,7 @@ std::vector<RegimeLine> regime_of_case(const Setup& setup) {
   for (RegimeLine& line : regime_of_bed(setup)) lines.push_back(std::move(line));
   add_outlets(setup, lines);
   add_viscosity(setup, lines);
+  add_air(setup, lines);
   add_walls_beyond_box(setup, lines);
   add_rims(setup, lines);
   return lines;

@@ -70,6 +70,17 @@ TALUS_INLINE double drag_coefficient(DragLaw law, const DragMedium& medium, doub
                                       : schiller_naumann_umekage_yuu(medium, solid_fraction, slip);
 }
 
+/// Whether a law was fitted to pressure drops of beds, for model A, where the grains bear a share of the pressure too.
+constexpr bool is_of_pressure_drops(DragLaw law) {
+  return law == DragLaw::ergun_wen_yu;
+}
+
+/// beta where drag is the only force of the air on the grains (model B), so that a bed has the same pressure drop.
+/// \param beta of such a law, kg/(m^3 s). Source: Gidaspow 1994, ch. 2
+constexpr double drag_alone(double beta, double void_fraction) {
+  return beta / void_fraction;
+}
+
 /// Effect of drag with a constant coefficient on the air over a time dt that need not be short compared with the
 /// relaxation time T = rho Phi/beta of the slip. The exact solution of rho Phi du/dt = -beta (u - u_p) + rho Phi f is
 /// u(dt) = u_p + decay (u(0) - u_p) + mean dt f.

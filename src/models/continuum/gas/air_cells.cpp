@@ -129,7 +129,7 @@ std::vector<Problem> check_air(const Parameters& p) {
       add(fmt::format("air.{}", names[face]),
           fmt::format("is {}, but box.{} is a plane of symmetry", choice_name(p.air.gas.boundaries.kind[face]),
                       names[face]),
-          "free-slip, as there");
+          "symmetry, as there");
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[static_cast<std::size_t>(axis)];
     const char* const key = axis == 1 && p.air.cell_depth ? "air.cell_depth" : "air.cell";
