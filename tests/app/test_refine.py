@@ -51,6 +51,12 @@ class Refine(ProgramTest):
         manifest = json.loads((self.folder / "run-refined/manifest.json").read_text())
         self.assertIn("0.00333333", manifest["case"])
 
+    def test_cells_of_the_air_are_divided_too(self):
+        self.write(CASE + '[air]\nenabled = true\ncell = "6 mm"\n')
+        self.talus("run", "case.toml", "--out", "run", "--refine", "--threads", 1)
+        manifest = json.loads((self.folder / "run-refined/manifest.json").read_text())
+        self.assertRegex(manifest["case"], r"cell = \"0\.004 m\"|cell = \"4 mm\"")
+
     def test_a_section_a_fixed_step_and_a_cloud_are_refused_before_anything_is_written(self):
         self.write(CASE.replace('depth = "30 mm"', 'depth = "5 mm"'))
         said = self.talus("run", "case.toml", "--out", "run", "--refine", status=2).stderr

@@ -22,7 +22,8 @@ struct FixedBed {
 inline constexpr FixedBed fixed_beds[] = {
     {coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_a, 2152},
     {coupling::DragLaw::schiller_naumann_umekage_yuu, Formulation::model_b, 0.4 * 2152},
-    {coupling::DragLaw::ergun_wen_yu, Formulation::model_a, 3849}};
+    {coupling::DragLaw::ergun_wen_yu, Formulation::model_a, 3849},
+    {coupling::DragLaw::ergun_wen_yu, Formulation::model_b, 3849}};
 
 template <class Body>
 void for_each_cell(const Grid& grid, Body&& body) {

@@ -10,8 +10,13 @@
 namespace talus::air {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
 
 /// A cavity of 1 m whose lid moves at 1 m/s, in air of 0.01 m^2/s.
 ModelParameters cavity() {
@@ -66,6 +71,36 @@ TEST(RegimeOfAir, WarnsOfAirTooThinForItsBox) {
   for (const std::size_t face : {0, 1, 4, 5}) p.gas.boundaries.kind[face] = FlowBoundary::periodic;
   p.gas.wall_velocity[5] = {};
   EXPECT_THAT(warnings(p), IsEmpty());  // no two walls face each other
+}
+
+TEST(RegimeOfAir, KnowsTheSpeedThatADifferenceOfPressureDrives) {
+  ModelParameters p = cavity();
+  p.gas.wall_velocity[5] = {};
+  p.gas.boundaries.kind[4] = p.gas.boundaries.kind[5] = FlowBoundary::open;
+  p.gas.boundaries.pressure[4] = 10;
+  EXPECT_NEAR(given_speed(p), std::sqrt(2 * 10 / p.gas.density()), 1e-12);
+  p.gas.upwind = 0;
+  EXPECT_THAT(warnings(p), ElementsAre("Reynolds number of a cell"));
+  p.gas.boundaries.pressure[5] = 10;
+  EXPECT_EQ(given_speed(p), 0);
+}
+
+/// Cells of 10 mm.
+TEST(RegimeOfAir, TellsTheAirThatComesInThroughWholeCells) {
+  const Grid grid{.count = {4, 1, 4}, .low = {}, .spacing = {0.01, 0.01, 0.01}};
+  Parameters p;
+  p.boundaries.kind[4] = FlowBoundary::inflow;
+  p.wall_velocity[4] = {0, 0, 2};
+  EXPECT_THAT(regime_of_faces(p, grid), Not(Contains(Field(&RegimeLine::quantity, HasSubstr("comes in")))));
+  p.inflow_low = {0.01, 0, 0};
+  const auto line = [&] { return regime_of_faces(p, grid).back(); };
+  EXPECT_EQ(line().quantity, "air that comes in at the face floor");
+  EXPECT_EQ(line().value, "0.0006 m3/s");
+  EXPECT_FALSE(line().warning);
+  p.inflow_low = {0.012, 0, 0};
+  EXPECT_TRUE(line().warning) << "28 mm asked, 30 mm taken";
+  p.inflow_low = {0.01, 0, 0.006};
+  EXPECT_THAT(check_inflows(p, grid), SizeIs(1)) << "the floor is not in the box";
 }
 
 std::vector<std::string> wrong_keys(const Parameters& p) {

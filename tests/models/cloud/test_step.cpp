@@ -19,6 +19,20 @@ Grains two_grains(const Parameters& p, double distance_over_radius) {
   return {{{0, 0, 0}, {0, distance_over_radius * a, 0}}, {a, a}};
 }
 
+TEST(Scales, DoNotDependOnHowGravityIsWritten) {
+  Parameters p = disc(1);
+  p.slope.enabled = true;
+  p.slope.angle = std::numbers::pi / 6;
+  Parameters q = p;
+  q.slope.angle = 0;
+  q.gravity.direction = {1, 0, -std::sqrt(3)};
+  for (const Motion motion : {Motion::xy, Motion::xz, Motion::xyz}) {
+    p.motion = q.motion = motion;
+    EXPECT_NEAR(scales(p).driving, 0.5, 1e-15);
+    EXPECT_NEAR(scales(q).driving, 0.5, 1e-15);
+  }
+}
+
 TEST(Velocities, AloneAGrainFallsWithTheStokesSpeed) {
   Parameters p = disc(1);
   ThreadTeam team(1);

@@ -101,6 +101,12 @@ TEST(VesselFile, OneThatIsElsewhereIsToldWithItsCure) {
   p.vessel[0].move = {0.04, 0.04, 0.01};
   EXPECT_THAT(check(p), testing::IsEmpty());
 
+  p.vessel[0].move = {652137.25, 5106412.75, 1800};  // as terrains are stored
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_THAT(check(p)[0].what, HasSubstr("spans 652137.22..652137.28 x 5106412.72..5106412.78 x "));
+  EXPECT_THAT(check(p)[0].allowed, HasSubstr("move = [\"40 mm\", \"40 mm\", \"10 mm\"]"));
+  p.vessel[0].move = {0.04, 0.04, 0.01};
+
   p.vessel[0].unit = FileUnit::inch;
   problems = check(p);
   ASSERT_EQ(problems.size(), 1u);
