@@ -112,6 +112,25 @@ class Beds(FieldTest):
         self.assertIn("the column id is not used", said)
 
 
+class Slopes(FieldTest):
+    def values(self, out="r"):
+        return {name: q["value"] for name, q in json.loads((self.folder / out / "summary.json").read_text())["quantities"].items()}
+
+    def test_a_layer_that_passes_periodic_faces_has_its_own_speed(self):
+        """Without friction on a level floor it goes on at what it began with."""
+        self.run_case("slide.toml", "gravity.tilt=0 deg", "walls.coefficient=0", "box.left=periodic", "box.right=periodic",
+                      "bed.height=20 mm", 'bed.velocity=["0.5 m/s", "0 m/s", "0 m/s"]')
+        self.assertAlmostEqual(self.values()["quiescent_speed"], 0.5, delta=0.005)
+
+    def test_what_rises_beyond_an_open_top_is_told(self):
+        """Onto the lower wall of a box as high as the bed: no pressure by the area that it covered at the start."""
+        said = self.talus("run", "slide.toml", "--out", "r").stdout
+        self.assertRegex(said, r"Beyond the box +\d+ % of the bed; its walls and floor have no end there")
+        self.assertGreater(self.values()["outside_fraction"], 0.2)
+        self.assertNotIn("Peak pressure", said)
+        self.assertFalse((self.folder / "r/analysis/box_walls.csv").exists())
+
+
 class Surfaces(FieldTest):
     def test_one_outside_the_box_is_told_with_the_move_that_cures_it(self):
         problem, = self.problems("check", "centred.toml")

@@ -322,6 +322,10 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
+  const double outside = value_of(quantities, "outside_fraction");
+  if (constexpr double notable = 0.001; outside > notable && p.box.floor != FaceKind::open)
+    answers.push_back({"Beyond the box",
+                       fmt::format("{:.2g} % of the bed; its walls and floor have no end there", 100 * outside), ""});
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",
                        fmt::format("{:.1f} % of the weight, by a pressure difference of {}", 100 * lift,

@@ -81,6 +81,7 @@ Grid air_grid(const Parameters& p) {
   const Vector3 size = extent(p);
   for (int axis = 0; axis < 3; ++axis) {
     int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p, axis))));
+    if (!p.air.cell && p.air.gas.boundaries.is_periodic(axis) && count > 1) count += count % 2;
     if (axis == 2 && p.plate.height && !p.air.cell)  // cells of 1/2 to 1 bed.spacing
       count = nearest_layers(count, (3 * count + 3) / 4, (3 * count) / 2, [&](int layers) {
                 return meets_the_plate(p, layers);
