@@ -166,8 +166,12 @@ const std::vector<Row> of_grains = {
     Row("mass_error", "1", "|mass of all particles and of what was removed over M and what inlets fed, − 1|",
         {mass_error}, {always}),
     Row("outside_fraction", "1",
-        "share of M beyond open faces of the box at the end of the run; adjacent walls and floor go on there",
-        {[](const Run& r, const Window&) { return last(r, "mass_outside") / r.setting.mass(); }}, {always}),
+        "share of M and what inlets fed beyond open faces of the box at the end of the run; adjacent walls and floor "
+        "go on there",
+        {[](const Run& r, const Window&) {
+          return last(r, "mass_outside") / (r.setting.mass() + last(r, "fed_mass"));
+        }},
+        {always}),
     Row("fed_mass", "kg", "mass that came in through inlets, to the end of the run",
         {[](const Run& r, const Window&) { return last(r, "fed_mass"); }}, {comes_or_goes}),
     Row("removed_mass", "kg", "mass that was taken away, to the end of the run",

@@ -96,7 +96,7 @@ std::vector<RegimeLine> regime_of_faces(const Parameters& p, const Grid& grid) {
                  asked = area_of_inflow(p, grid, face), speed = std::abs(p.wall_velocity[face][face / 2]);
     lines.push_back({fmt::format("air that comes in at the face {}", names[face]),
                      fmt::format("{:.4g} m3/s", area * speed),
-                     fmt::format("through whole cells, {:.4g} of the {:.4g} mm2 that inflow_low and inflow_high hold",
+                     fmt::format("through whole cells, {:.4g} mm2; within inflow_low and inflow_high lie {:.4g} mm2",
                                  area * 1e6, asked * 1e6),
                      std::abs(area - asked) > max_difference * asked});
   }
