@@ -321,6 +321,12 @@ class NoParticles(BedTest):
         self.assertEqual(bits(self.folder / "run"), bits(self.folder / "cut"))
         self.assertEqual(state(self.folder / "run"), state(self.folder / "cut"))
 
+    def test_an_inlet_that_begins_after_the_end_is_told(self):
+        self.write(BIN + INLET)
+        self.assertNotIn("inlet.1.from", self.talus("check", "case.toml").stdout)
+        said = self.talus("check", "case.toml", "--set", "inlet.1.from=2 s", "--set", "inlet.1.to=3 s", "--set", "run.end=1 s").stdout
+        self.assertIn("! inlet.1.from = 2 s: nothing comes in before run.end, 1 s", " ".join(said.split()))
+
     def test_without_an_inlet_a_bed_is_missing(self):
         self.write(BIN.replace(HEIGHT, ""))
         self.assertRegex(self.problems("check", "case.toml")[0], "bed.height: missing")

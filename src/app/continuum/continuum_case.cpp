@@ -26,6 +26,7 @@
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/stl.hpp"
+#include "models/continuum/inlets.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/setup/choices.hpp"
@@ -352,6 +353,9 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.regime = continuum::regime_of_case(*setup);
   prepared.remarks = continuum::remarks_of_vessel(p);
   prepared.regime.push_back(continuum::courant_of_case(*setup));
+  for (const std::size_t n : continuum::inlets_after(p, end))
+    prepared.regime.push_back({continuum::inlet_key(n, "from"), fmt::format("{:.4g} s", p.inlets[n].from),
+                               fmt::format("nothing comes in before run.end, {:.4g} s", end), true});
   prepared.start = [setup] { return bed_lines(*setup); };
   prepared.draw_start = [setup, title = read.run.title](const std::filesystem::path& path) {
     draw_bed(*setup, title, path);

@@ -128,9 +128,12 @@ NumericalError::Report AirFlow::step_limit(const Solids& solids, const AirState&
                              x.y, x.z, solids.fraction[grid.index(i, j, k)]);
   report.term = by_motion ? fmt::format("Courant number of the air, which crosses {:.3g} cells a second", crossing)
                           : fmt::format("drag on the grains, which stops them at {:.3g} 1/s, Eq. 20", response);
-  report.advice = by_motion
-                      ? "larger air cells; a slower inflow or a smaller difference of pressure"
-                      : "larger air cells, a stiffer law of the grains; a box in which grains do not pile up there";
+  if (!by_motion)
+    report.advice = "larger air cells, a stiffer law of the grains; a box in which grains do not pile up there";
+  else if (parameters_.courant < max_courant)
+    report.advice = fmt::format("larger air cells, a larger air.courant (up to {:g})", max_courant);
+  else
+    report.advice = "larger air cells; a slower inflow or a smaller difference of pressure";
   return report_of_one(part_.ranks,
                        first.least[0] < part_.ranks.rank() || !is_here ? NumericalError::Report{} : report);
 }

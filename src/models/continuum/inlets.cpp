@@ -45,6 +45,17 @@ std::string inlet_key(std::size_t n, std::string_view name) {
   return fmt::format("inlet.{}.{}", n + 1, name);
 }
 
+std::vector<std::size_t> inlets_after(const Parameters& p, double end) {
+  std::vector<std::size_t> late;
+  for (std::size_t n = 0; n < p.inlets.size(); ++n) {
+    const bool from_gate = p.inlets[n].clock == InletClock::gate;
+    if (!from_gate && p.gate.opens == GateOpens::when_settled) continue;  // when is not known
+    const double opened = !from_gate && p.gate.opens == GateOpens::at_time ? p.gate.time : 0;
+    if (p.inlets[n].from >= opened + end) late.push_back(n);
+  }
+  return late;
+}
+
 InletLayer layer_of(const Layout& layout, const Inlet& inlet) {
   const Parameters& p = layout.given;
   const Surface& surface = layout.boundary->vessel();

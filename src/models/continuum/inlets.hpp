@@ -17,6 +17,7 @@
 namespace talus::continuum {
 
 struct Layout;
+struct Parameters;
 
 enum class InletShape { rectangle, disc };
 enum class InletClock { start, gate };
@@ -53,6 +54,9 @@ inline bool is_pouring(const std::vector<Inlet>& inlets, double time) {
     return inlet.clock == InletClock::start && inlet.from <= time && time < inlet.end();
   });
 }
+
+/// Those that begin after a run of such an end, s, has ended. A bed that settles first may take longer.
+std::vector<std::size_t> inlets_after(const Parameters& parameters, double end);
 
 /// The key of the nth of [[inlet]], from 0.
 std::string inlet_key(std::size_t n, std::string_view name);
