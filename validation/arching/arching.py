@@ -83,11 +83,10 @@ def ratio_at_failure(options, kind, outlet, gravity):
     """The middle between the largest that flows and the smallest that arches."""
     state = strength_and_arch if kind == "flow" else ratio_and_arch
     arched = [state(ratio, talus.Run(folder)) for k, o, g, ratio, folder in runs(options) if (k, o, g) == (kind, outlet, gravity)]
-    flags = [flag for _, flag in arched]
-    if flags != sorted(flags) or all(flags) or not any(flags):
+    flows, arches = ([ratio for ratio, flag in arched if flag == wanted] for wanted in (False, True))
+    if not arched or arched[0][1] or not arched[-1][1]:
         sys.exit(f"{kind}, {outlet} mm: no strength at failure among {arched}")
-    n = flags.index(True)
-    return 0.5 * (arched[n - 1][0] + arched[n][0])
+    return 0.5 * (max(flows) + min(arches))
 
 
 def measure(options):
