@@ -129,7 +129,7 @@ const std::vector<Row> of_grains = {
         "slope of the hopper's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
         "and its right half, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {plane_outlet, while_it_flows}),
-    Row("weight_balance_error", "1", "upward force of all walls and the air, from impulses over T, over M g, less 1",
+    Row("weight_balance_error", "1", "upward force of all walls, from their impulses over T, over M g, less 1",
         {balance_error}, {always}),
     Row("quiescent_speed", "m/s",
         "95th percentile of the speeds of the particles deeper than 3 h below the surface, and not within 3 h of the "

@@ -47,7 +47,6 @@ Vector3 wall_force(const Series& series, std::string_view wall, double from, dou
 double weight_balance_error(const Series& series, double weight, double from, double to) {
   double upward = 0;
   for (const std::string& wall : walls_of(series)) upward -= wall_force(series, wall, from, to).z;
-  if (series.has("impulse_air_z")) upward += wall_force(series, "air", from, to).z;
   return upward / weight - 1;
 }
 

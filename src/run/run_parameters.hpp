@@ -26,7 +26,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(
       Parameter{
           "run.end", dimension::time, above(0),
-          "simulated time at whose first step past it the run ends; of a model with a gate counted from its opening",
+          "simulated time; the run ends with the first step past it. Of a model with a gate counted from its opening",
           true},
       p.end);
   visit(Parameter{"output.snapshots", dimension::time, at_least(0),
