@@ -70,31 +70,44 @@ def _of_code(run, walls):
     return found
 
 
+def sides_of_bed(run, walls):
+    """1 of triangles whose normal points to the bed, by the nearest of its particles at the start, else -1."""
+    first = next((s for s in run.snapshots if len(s.positions)), None)
+    if first is None:
+        return np.ones(len(walls.corners))
+    places = np.asarray(first.positions)[::max(1, len(first.positions) // 5000)]
+    middles, normals = np.asarray(walls.middles), np.asarray(walls.normals)
+    nearest = np.array([((places - middle) ** 2).sum(axis=1).argmin() for middle in middles])
+    return np.where(((places[nearest] - middles) * normals).sum(axis=1) < 0, -1.0, 1.0)
+
+
 def write_element_loads(run, path):
-    """As CSV, a row a triangle with its middle, normal and area, or as VTK (legacy), by the ending of the path: .csv or .vtk."""
+    """As CSV, a row a triangle with its middle, normal and area, or as VTK (legacy), by the ending of the path: .csv or .vtk. Normals,
+    and the order of a triangle's corners, point into the bed: a pressure p is a force -p times normal and area on the wall."""
     path, walls, columns = Path(path), run.walls[-1], element_loads(run)
+    sides = sides_of_bed(run, walls)
     if path.suffix == ".csv":
-        given = {"": (walls.middles, "m"), "normal": (walls.normals, "1"), "area": (walls.areas, "m2")} | columns
+        given = {"": (walls.middles, "m"), "normal": (sides[:, None] * walls.normals, "1"), "area": (walls.areas, "m2")} | columns
         flat = {}
         for name, (values, unit) in given.items():
             parts = [(name, values)] if values.ndim == 1 else [(f"{name}_{axis}".lstrip("_"), values[:, n]) for n, axis in enumerate("xyz")]
             flat |= {f"{part} [{unit}]": np.asarray(column, dtype=float) for part, column in parts}
         np.savetxt(path, np.column_stack(list(flat.values())), fmt="%.9g", delimiter=",", header=",".join(flat), comments="")
     elif path.suffix == ".vtk":
-        _write_vtk(path, walls, columns)
+        _write_vtk(path, walls, np.where(sides[:, None] > 0, walls.corners, walls.corners[:, ::-1]), columns)
     else:
         raise RunError(f"{path}: loads are written as .csv or .vtk")
 
 
-def _write_vtk(path, walls, columns):
+def _write_vtk(path, walls, corners, columns):
     """Binary, as its readers know no nan in text. Source: VTK File Formats, simple legacy formats,
     https://docs.vtk.org/en/latest/vtk_file_formats/vtk_legacy_file_format.html"""
-    count = len(walls.corners)
+    count = len(corners)
 
     def block(heading, values, kind=">f8"):
         return f"{heading}\n".encode() + np.ascontiguousarray(values, dtype=kind).tobytes() + b"\n"
 
-    polygons = np.column_stack([np.full(count, 3), walls.corners])
+    polygons = np.column_stack([np.full(count, 3), corners])
     parts = [b"# vtk DataFile Version 3.0\nloads on the walls, SI units\nBINARY\nDATASET POLYDATA\n",
              block(f"POINTS {len(walls.points)} double", walls.points),
              block(f"POLYGONS {count} {4 * count}", polygons, ">i4"), f"CELL_DATA {count}\n".encode()]

@@ -46,6 +46,9 @@ bool outlet(const Run& run) {
 bool hand_formula(const Run& run) {
   return outlet(run) && run.setting.hand_discharge > 0;
 }
+bool bed_and_hand_formula(const Run& run) {
+  return hand_formula(run) && run.setting.particles > 0;
+}
 
 /// Upward force of all walls on the settled bed over its weight, less 1.
 double balance_at_rest(const Run& run, const Window&) {
@@ -100,9 +103,9 @@ double top_of_bed(const HopperSnapshot& s) {
   return heights.empty() ? none : quantile(heights, 0.995) + 0.5 * s.shape().spacing;
 }
 
-/// Whether a band of the walls is upright and the bed reaches its top.
+/// Whether a band of the walls is upright, in the bed, and the bed reaches its top.
 bool is_filled(const BandOfWall& band, double top) {
-  return band.is_upright() && band.high <= top && band.area > 0;
+  return band.is_upright() && !band.is_bare && band.high <= top && band.area > 0;
 }
 
 /// Sum over the filled bands of their area times the mean vertical stress of the bed at their heights, N.
@@ -164,8 +167,14 @@ double packing_above_outlet(const HopperSnapshot& s, int layer, bool beside) {
     if (distance >= from && distance <= to && (of.outlet_is_round || along <= 0.5 * of.outlet_depth))
       inside += ratios[i];
   }
-  const double area =
-      of.outlet_is_round ? std::numbers::pi * (to * to - from * from) : 2 * (to - from) * of.outlet_depth;
+  // Planes of symmetry through the outlet leave a part of its grains.
+  const Box& box = of.domain.box();
+  const auto share = [&](int axis, double half) {
+    return (std::min(box.high[axis], middle[axis] + half) - std::max(box.low[axis], middle[axis] - half)) / (2 * half);
+  };
+  const double area = (of.outlet_is_round ? std::numbers::pi * (to * to - from * from) * share(1, to)
+                                          : 2 * (to - from) * of.outlet_depth * share(1, 0.5 * of.outlet_depth)) *
+                      share(0, to);
   return inside * of.particle_mass / (of.grain_density * area * height);
 }
 
@@ -240,7 +249,7 @@ std::vector<Row> hopper_vessel_measures() {
           {outlet}),
       Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
           {[](const Run& r, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
-          {hand_formula}),
+          {bed_and_hand_formula}),
       Row("share_that_moves", "1",
           "share by mass of the particles above the outlet that are faster than a tenth of their mean; speed: "
           "displacement "

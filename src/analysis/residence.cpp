@@ -22,22 +22,26 @@ Residence::Residence(const Snapshot& start, double outlet, std::size_t layers)
     const double z = position[i].z;
     if (z < outlet) continue;
     const auto layer = step_ > 0 ? static_cast<std::size_t>((z - low_) / step_) : 0;
-    tagged_.emplace(identity[i], Tagged{std::min(layer, count_ - 1), z, none});
+    tagged_.emplace(identity[i], Tagged{std::min(layer, count_ - 1), z, none, 0});
   }
 }
 
 void Residence::take(const Snapshot& next, double time) {
   const auto position = next.positions();
   const auto identity = next.integers("identity");
+  ++taken_;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const auto found = tagged_.find(identity[i]);
     if (found == tagged_.end()) continue;
     Tagged& particle = found->second;
+    particle.seen = taken_;
     const double before = particle.height, z = position[i].z;
     particle.height = z;
     if (!std::isnan(particle.passed) || !(before >= outlet_ && z < outlet_)) continue;
     particle.passed = time_ + (time - time_) * (before - outlet_) / (before - z);
   }
+  for (auto& [name, particle] : tagged_)
+    if (particle.seen + 1 == taken_ && std::isnan(particle.passed)) particle.passed = 0.5 * (time_ + time);
   time_ = time;
 }
 

@@ -25,7 +25,8 @@ class Residence {
   Residence(const Snapshot& start, double outlet, std::size_t layers);
 
   /// The next snapshot. A particle that it shows below the outlet, and the one before above, has passed in between,
-  /// where a straight way between both positions meets the height. \param time from the opening of the gate, s
+  /// where a straight way between both positions meets the height; one that it no longer shows, half-way in time.
+  /// \param time from the opening of the gate, s
   void take(const Snapshot& next, double time);
 
   std::vector<LayerResidence> layers() const;
@@ -34,9 +35,10 @@ class Residence {
   struct Tagged {
     std::size_t layer;
     double height, passed;  // m; s, nan until it has
+    std::size_t seen;       // in which snapshot last
   };
   double outlet_, low_, step_ = 0, time_ = 0;
-  std::size_t count_;
+  std::size_t count_, taken_ = 0;
   std::unordered_map<std::int64_t, Tagged> tagged_;
 };
 

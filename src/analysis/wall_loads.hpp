@@ -35,6 +35,7 @@ struct BandOfWall {
   std::size_t patch = 0;               ///< from 0
   double low = 0, high = 0, area = 0;  ///< m, m^2
   double sine = 0;                     ///< of the wall's angle with the vertical: 0 upright, 1 level
+  bool is_bare = false;                ///< no grain has touched it
 
   bool is_upright() const { return sine < 1e-3; }
 };

@@ -170,10 +170,15 @@ std::optional<double> measured_evaluation(const PreparedCase& prepared, int thre
   }
 }
 
-/// "not known" where steps that were tried fail.
-std::string measured_time(const PreparedCase& prepared, int threads) {
+/// Nothing where steps that were tried fail.
+std::optional<double> measured_seconds(const PreparedCase& prepared, int threads) {
   const std::optional<double> each = measured_evaluation(prepared, threads);
-  return each ? run::format_seconds(seconds_of(prepared.forecast, *each)) : "not known, its first steps fail";
+  return each ? std::optional(seconds_of(prepared.forecast, *each)) : std::nullopt;
+}
+
+std::string measured_time(const PreparedCase& prepared, int threads) {
+  const std::optional<double> seconds = measured_seconds(prepared, threads);
+  return seconds ? run::format_seconds(*seconds) : "not known, its first steps fail";
 }
 
 /// The case with the first of the alternatives that makes it valid, and has no warning that it has not without.
@@ -215,7 +220,7 @@ void print_accuracies(const Subject& s) {
     }
 }
 
-/// What would shorten the run, each with its forecast, alone.
+/// What would shorten the run, each with its forecast, alone; what by its forecast does not is left out.
 void print_shortenings(const Subject& s, double seconds) {
   print("! This run would take {}. Options:\n", run::format_seconds(seconds));
   const auto option = [](const std::string& change, const std::string& time, const std::string& text) {
@@ -230,7 +235,8 @@ void print_shortenings(const Subject& s, double seconds) {
       for (const std::string& setting : found->first)
         change += fmt::format("{}--set {}", change.empty() ? "" : " \\\n    ",
                               setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
-      option(change, measured_time(found->second, s.threads), shortening.text);
+      const std::optional<double> shorter = measured_seconds(found->second, s.threads);
+      if (shorter && *shorter < seconds) option(change, run::format_seconds(*shorter), shortening.text);
     }
   if (const int all_processors = processors(); all_processors > s.threads)
     option(fmt::format("--threads {}", all_processors), measured_time(s.prepared, all_processors),

@@ -210,7 +210,7 @@ double print_loads(const DesignInput& input, const Design& design) {
   p.vessel = {upright, hopper};
   const continuum::Layout layout(p);
   const double top = cone + input.height;
-  const auto silo = silo_of_code(layout, top, cone);
+  const auto silo = silo_of_code(layout, top, {0.5 * p.box.width, 0.5 * p.box.depth, cone});
   if (!silo) return 0;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   const double vertical = silo->filling(granular::en1991::Load::bottom, granular::en1991::Limit::upper, cone).vertical;
@@ -225,6 +225,7 @@ double print_loads(const DesignInput& input, const Design& design) {
   const auto loads = [&](const char* what, std::size_t part, double height) {
     BandOfWall band;
     band.patch = part;
+    band.sine = part == 1 ? std::sin(design.half_angle[1]) : 0;
     const CodeLoads at = code_loads(layout, band, top, height);
     line(what, pressure_text(at.pressure_filling), pressure_text(at.pressure_discharge), "EN 1991-4:2006, upper");
   };

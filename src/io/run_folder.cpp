@@ -170,7 +170,6 @@ RunFolder RunFolder::create(std::filesystem::path path, Existing existing) {
   return at(folder.path_, "cannot make the folder", [&] {
     const bool exists = fs::exists(folder.path_);
     if (exists && !fs::is_directory(folder.path_)) refuse(folder.path_, "is a file, not a folder");
-    if (!exists && existing == Existing::resume) refuse(folder.path_, "there is no such folder; nothing to resume");
     fs::create_directories(folder.path_);
     folder.lock(existing);
     check(folder, existing);

@@ -190,6 +190,21 @@ TEST(HopperVessel, AnArchIsThePackingAboveTheOutlet) {
   EXPECT_EQ(hopper::outlet_packing(HopperSnapshot(s, places, gate)), 0);
 }
 
+TEST(HopperVessel, PlanesOfSymmetryThroughTheOutletLeaveItsPackingAsItIs) {
+  HopperSetting s = setting();
+  s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * width;
+  const test::GrainColumns now = bed(gate + 0.2);
+  const double whole = hopper::outlet_packing(HopperSnapshot(s, now.view(), gate));
+  std::vector<Vector3> quarter;
+  for (const Vector3& x : now.position)
+    if (x.x >= 0.5 * width && x.y >= 0.5 * width) quarter.push_back(x);
+  Box box = s.domain.box();
+  box.low.x = box.low.y = 0.5 * width;
+  s.domain = Domain(box);
+  const Snapshot places{.time = 1, .columns = {{"position", "m", std::span<const Vector3>(quarter)}}};
+  EXPECT_NEAR(hopper::outlet_packing(HopperSnapshot(s, places, gate)), whole, 1e-9);
+}
+
 TEST(HopperVessel, TheRatioOfPressuresIsUnknownWhereNoSnapshotHasTheSettledBed) {
   EXPECT_TRUE(std::isfinite(hopper::wall_pressure_ratio(run(-0.05), {})));
   EXPECT_TRUE(std::isnan(hopper::wall_pressure_ratio(run(-0.05, gate - 0.04), {}))) << "it bears nothing yet";
@@ -204,6 +219,10 @@ TEST(HopperVessel, TheRatioOfPressuresIsOfTheBandsThatTheBedFills) {
   const HopperRun of = run();
   EXPECT_NEAR(hopper::settled_top(of), 0.175, 1e-9);
   EXPECT_NEAR(hopper::wall_pressure_ratio(of, {}), 0.6, 1e-9) << "the upper band is half empty";
+  HopperRun beside = run();
+  beside.setting.bands.push_back(beside.setting.bands.front());
+  beside.setting.bands.back().name = "of another bin", beside.setting.bands.back().is_bare = true;
+  EXPECT_NEAR(hopper::wall_pressure_ratio(beside, {}), 0.6, 1e-9) << "no grain has touched it";
   EXPECT_NEAR(value(of, "weight_balance_error_at_rest"), 4 / (4000 * 1500 * h * h * h * 10) - 1, 1e-9);
 }
 

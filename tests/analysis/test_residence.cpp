@@ -37,6 +37,22 @@ TEST(Residence, LayersLeaveWhenTheirParticlesPassTheOutlet) {
   EXPECT_NEAR(layers[1].last, 0.85, 1e-9);
 }
 
+TEST(Residence, WhatIsTakenAwayBetweenTwoSnapshotsHasPassed) {
+  const PointSet start = column(0);
+  Residence residence(start.view(), 1.0, 1);
+  PointSet later = column(0.5);
+  std::get<std::vector<Vector3>>(later.columns[0].values)
+      .erase(std::get<std::vector<Vector3>>(later.columns[0].values).begin());
+  std::get<std::vector<std::int64_t>>(later.columns[1].values)
+      .erase(std::get<std::vector<std::int64_t>>(later.columns[1].values).begin());
+  residence.take(later.view(), 0.5);
+  // The first is gone, half-way through; the second and the third are below the outlet, on straight ways.
+  EXPECT_EQ(residence.layers()[0].share_out, 3.0 / 8);
+  EXPECT_NEAR(residence.layers()[0].mean, (0.25 + 0.5 * 0.15 / 0.4 + 0.5 * 0.25 / 0.3) / 3, 1e-12);
+  residence.take(later.view(), 0.6);
+  EXPECT_EQ(residence.layers()[0].share_out, 3.0 / 8) << "once";
+}
+
 TEST(Residence, WhatIsBelowAtTheStartIsNoPartAndWhatStaysHasNoTime) {
   const PointSet start = column(0);
   Residence residence(start.view(), 1.2, 1);

@@ -312,8 +312,11 @@ class ExistingFolder(ProgramTest):
         said = self.talus("run", "case.toml", "--out", "r", status=2).stderr
         self.assertIn("r: holds a run already; allowed: --resume to go on with it, --overwrite to replace it", said)
         self.assertEqual(tree(self.folder), before)
-        self.talus("run", "case.toml", "--out", "none", "--resume", status=2)
-        self.assertEqual(tree(self.folder), before)
+
+    def test_resume_begins_where_there_is_none(self):
+        self.talus("run", "case.toml", "--out", "new", "--resume")
+        self.talus("run", "case.toml", "--out", "r")
+        self.assertEqual((self.folder / "new/series.csv").read_bytes(), (self.folder / "r/series.csv").read_bytes())
 
     def test_changed_case_is_not_resumed(self):
         self.talus("run", "case.toml", "--out", "r")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a bed at rest, a column, a slit, pressure pulses and a silo with particles of two sizes and of one, and compares them.
+"""Runs a bed at rest, a column, a slit with and without air, pressure pulses and a silo with particles of two sizes and of one, and compares them.
 
     validation/plant/levels.py [--out results/plant-levels] [--threads N] [--markdown FILE] [--picture FILE]
 
@@ -17,14 +17,16 @@ import study  # noqa: E402
 import talus  # noqa: E402
 
 REFERENCE = study.rows_of(HERE, "levels-")
+AIR = {"grains.diameter": "0.2 mm", "air.enabled": True, "air.cell": "7.5 mm", "air.drag": "ergun-wen-yu", "air.floor": "open",
+       "air.top": "wall", "run.end": "0.45 s"}
 CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {}),
-         "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
+         "air": ("levels-slit.toml", AIR), "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
 LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
                   "levels.high": ["112 mm", "64 mm", "100 mm"]},
           "column": {"levels.count": 1, "levels.distance": "20 mm", "levels.low": ["100 mm", "0 mm", "0 mm"],
                      "levels.high": ["240 mm", "40 mm", "40 mm"]},
-          "slit": {"levels.count": 1},
+          "slit": {"levels.count": 1}, "air": {"levels.count": 1},
           "finer": {"levels.count": 1, "levels.distance": "1 mm", "levels.low": ["0 mm", "0 mm", "0 mm"],
                     "levels.high": ["48 mm", "48 mm", "320 mm"]},
           "coarser": {"levels.count": 1, "levels.distance": "1 mm", "levels.low": ["0 mm", "0 mm", "320 mm"],
@@ -32,7 +34,7 @@ LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": [
           "silo": {"levels.count": 1}}
 CHANGE, PULSE = 0.32, 0.16  # height where the level changes; length of the pulse, m
 SPACING = 4e-3  # of the column, m
-BEHIND, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.75, 0.1, 0.96665, 1.0  # s; m from the outlet's rim; m; m; m
+BEHIND, BEHIND_AIR, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.4, 0.75, 0.1, 0.96665, 1.0  # s; s; m from the outlet's rim; m; m; m
 
 
 def folder_of(out, case, count):
@@ -86,10 +88,17 @@ def comes_back(run):
     return float(np.mean(found))
 
 
-def left(run):
-    """What has left the silo so long after the opening, kg."""
+def left(run, behind):
+    """What has left the vessel so long after the opening, kg."""
     time = np.asarray(run.series["time"]) - run.gate_time
-    return float(np.interp(BEHIND, time, np.asarray(run.series["removed_mass"])))
+    return float(np.interp(behind, time, np.asarray(run.series["removed_mass"])))
+
+
+def suction(run):
+    """Mean of the air's lowest pressure over the second half of the time in which the slit is watched, Pa."""
+    time = np.asarray(run.series["time"]) - run.gate_time
+    watched = (time >= 0.5 * BEHIND_AIR) & (time <= BEHIND_AIR)
+    return float(np.asarray(run.series["air_pressure_min"])[watched].mean())
 
 
 def density_over_sum(run):
@@ -118,7 +127,9 @@ def measure(options):
             "levels-slit": over_one_size("slit", lambda run: run.summary["discharge_steady"]),
             **{f"levels-wave-{case}": comes_back(runs[case, 1]) - comes_back(runs[case, 0]) for case in ("finer", "coarser")},
             "levels-rate": over_one_size("silo", lambda run: run.summary["discharge_steady"]),
-            "levels-left": over_one_size("silo", left),
+            "levels-left": over_one_size("silo", lambda run: left(run, BEHIND)),
+            "levels-air": over_one_size("air", lambda run: left(run, BEHIND_AIR)),
+            "levels-air-pressure": over_one_size("air", suction),
             "levels-density": over_one_size("silo", density_over_sum)}, runs
 
 

@@ -76,7 +76,7 @@ class FlowAnswers {
     if (const auto outlet = critical_outlet_by_hand(setup_)) answers.push_back(critical_outlet(*outlet));
     if (!setup_.given.vessel.empty()) answers.push_back(regime());
     answers.push_back(steady_discharge());
-    if (const double peak = of("discharge_rate_max"); peak > 0)
+    if (const double peak = of("discharge_rate_max"); peak > 0 && discharged() > 1e-9)
       answers.push_back(
           {fmt::format("Peak discharge ({} average)", time_text(setup_.scales.averaging_time)),
            fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
@@ -304,11 +304,24 @@ std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& qu
                           internal_friction_by_hand(shape.layout.given) * 180 / std::numbers::pi);
     return text;
   }
-  const SiloPiece* const wall = piece ? piece : shape.upright_at(height);
+  const SiloPiece* const wall = piece ? piece : shape.upright_at(place_of(shape, {.patch = part}, height));
   const double measured = value_of(quantities, "wall_pressure_ratio");
   const bool is_measured = std::isfinite(measured);
   return fmt::format("Janssen, K {:.3g} {}, μ {:.3g}", is_measured ? measured : pressure_ratio_at_rest(shape.layout),
                      is_measured ? "as measured" : "of the moduli", wall ? wall->friction : HopperRun::none);
+}
+
+/// What inlets were to bring in, kg; nan where one of them is not over. \param end of the run, from the opening of the
+/// gate, s
+double asked_of_inlets(const continuum::Parameters& p, double end) {
+  double mass = 0;
+  for (const continuum::Inlet& inlet : p.inlets) {
+    const bool is_before =
+        inlet.clock == continuum::InletClock::start && p.gate.opens == continuum::GateOpens::when_settled;
+    if (!(is_before ? end > 0 : end >= inlet.end())) return HopperRun::none;
+    mass += inlet.rate * (inlet.end() - inlet.from);
+  }
+  return mass;
 }
 
 }  // namespace
@@ -326,6 +339,10 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   if (constexpr double notable = 0.001; outside > notable && p.box.floor != FaceKind::open)
     answers.push_back({"Beyond the box",
                        fmt::format("{:.2g} % of the bed; its walls and floor have no end there", 100 * outside), ""});
+  const double asked = asked_of_inlets(p, end), fed = value_of(quantities, "fed_mass");
+  if (constexpr double enough = 0.95; fed < enough * asked)
+    answers.push_back(
+        {"Fed", fmt::format("{} of {}: inlets had no room for more", mass_text(fed), mass_text(asked)), ""});
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",
                        fmt::format("{:.1f} % of the weight, by a pressure difference of {}", 100 * lift,

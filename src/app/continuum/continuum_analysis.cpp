@@ -164,7 +164,10 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
     if (!outlets.empty()) {
       setting.outlet_depth = outlets.front().depth;
       setting.outlet_is_round = outlets.front().round;
-      if (!outlets.front().round) setting.outlet_length = outlets.front().length;
+      if (const continuum::VesselOutlet& first = outlets.front(); !first.round)
+        setting.outlet_length = first.endless_along_x   ? p.box.width
+                                : first.endless_along_y ? p.box.depth
+                                                        : first.length;
     }
     if (outlets.size() > 1)
       for (const continuum::VesselOutlet& outlet : outlets)
@@ -185,10 +188,14 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
   HopperRun run{.setting = setting, .series = read_series(RunFolder(run_folder).series())};
   if (run.series.rows() == 0) throw FileError((run_folder / "series.csv").string(), "has no rows");
   run.gate_time = gate_time_of(run.series);
+  for (BandOfWall& band : run.setting.bands) {
+    const std::string column = "normal_impulse_" + band.name;
+    band.is_bare = run.series.has(column) && !(run.series.column(column).back() > 0);
+  }
   const auto paths = snapshot_paths(run_folder);
   std::vector<double> time;
   for (const auto& path : paths) time.push_back(read_points_time(path) - run.gate_time);
-  const auto reader = std::make_shared<Reader>(paths, time, setting, run.gate_time);
+  const auto reader = std::make_shared<Reader>(paths, time, run.setting, run.gate_time);
   run.snapshots = HopperRun::Numbers::of(
       std::move(time), [reader](std::size_t n) { return reader->read(n); },
       snapshots_in_memory(paths, snapshot_memory));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "app/continuum/engineering_units.hpp"
@@ -26,25 +27,10 @@ namespace code = granular::en1991;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Where the upright walls end: those that stand under these too count, and a level floor within.
-double lower_end(const SiloShape& shape, const SiloPiece& wall, double top) {
-  const continuum::Parameters& p = shape.layout.given;
-  double end = wall.bottom;
-  for (std::size_t n = 0; n < shape.pieces.size(); ++n)
-    for (const SiloPiece& piece : shape.pieces)
-      if (!piece.is_hopper() && std::abs(piece.top - end) <= p.bed.spacing && piece.bottom < end) end = piece.bottom;
-  for (const VesselPart& v : p.vessel) {
-    const bool disc = v.shape == VesselShape::disc && v.along == continuum::Along::z,
-               plate = v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0;
-    const double height = disc ? v.height : v.corner[2];
-    if ((disc || plate) && height < top) end = std::max(end, height);
-  }
-  return end;
-}
-
-bool has_hopper_at(const SiloShape& shape, double height) {
+bool has_hopper_at(const SiloShape& shape, const SiloPiece& wall, double height) {
   return std::any_of(shape.pieces.begin(), shape.pieces.end(), [&](const SiloPiece& piece) {
-    return piece.is_hopper() && std::abs(piece.top - height) <= shape.layout.given.bed.spacing;
+    return piece.is_hopper() && std::abs(piece.top - height) <= shape.layout.given.bed.spacing &&
+           std::hypot(piece.axis.x - wall.axis.x, piece.axis.y - wall.axis.y) < 0.5 * wall.width;
   });
 }
 
@@ -77,15 +63,27 @@ Values CodeSilo::values(Load load, Limit limit) const {
   return code::values_for(solid, friction, load, limit);
 }
 
-code::Stresses CodeSilo::filling(Load load, Limit limit, double height) const {
-  return code::filling(silo, solid.repose, values(load, limit), weight, top - height);
+double CodeSilo::weight(Limit limit) const {
+  return limit == Limit::upper ? std::max(own_weight, solid.max_weight) : own_weight;
 }
 
-std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, double height) {
+code::Stresses CodeSilo::filling(Load load, Limit limit, double height) const {
+  code::Stresses found = code::filling(silo, solid.repose, values(load, limit), weight(limit), top - height);
+  found.shear = code::values_for(solid, own_friction, load, limit).friction * found.pressure;
+  return found;
+}
+
+std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, const Vector3& place) {
   const continuum::Layout& layout = shape.layout;
   const continuum::Parameters& p = layout.given;
-  const SiloPiece* wall = shape.upright_at(height);
+  const SiloPiece* wall = shape.upright_at(place);
+  const double height = place.z;
   if (!wall || wall->bottom > height + p.bed.spacing || !(top > height)) return std::nullopt;
+  const double bottom = shape.bottom_of(*wall, top);
+  if (bottom > height + p.bed.spacing) return std::nullopt;  // a skirt about a hopper
+  double friction = 0, beside = 0;
+  for (const SiloShape::Ring& ring : shape.rings_above(*wall, height, top))
+    friction += ring.friction * ring.height, beside += ring.height;
   CodeSilo found{.name = shape.name_of(*wall),
                  .part = wall->parts.front(),
                  .silo = {.area = wall->area,
@@ -94,13 +92,14 @@ std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, double 
                           .is_round = wall->is_round},
                  .solid = solid_of(p),
                  .is_listed = listed_solid(p).has_value(),
-                 .friction = wall->friction,
-                 .weight = bulk_density(p) * p.gravity.acceleration,
+                 .friction = beside > 0 ? friction / beside : wall->friction,
+                 .own_friction = wall->friction,
+                 .own_weight = bulk_density(p) * p.gravity.acceleration,
                  .top = top,
-                 .bottom = lower_end(shape, *wall, top),
+                 .bottom = bottom,
                  .eccentricity = eccentricity_of_outlets(layout, wall->axis)};
   found.silo.height = top - found.bottom;
-  found.silo.has_flat_bottom = !has_hopper_at(shape, found.bottom);
+  found.silo.has_flat_bottom = !has_hopper_at(shape, *wall, found.bottom);
   return found;
 }
 
@@ -119,8 +118,8 @@ CodeLoads loads_on_upright(const CodeSilo& s, double height) {
   // The channels press less than the bed at rest, and that beside them by as much more.
   const Values values = s.values(Load::wall_pressure, Limit::upper);
   for (const double share : code::channel_radii) {
-    const double within =
-        code::channel_pressure(code::flow_channel(0.5 * s.silo.width, share, values), s.weight, s.top - height);
+    const double within = code::channel_pressure(code::flow_channel(0.5 * s.silo.width, share, values),
+                                                 s.weight(Limit::upper), s.top - height);
     const double beside = 2 * loads.pressure_filling - within;
     loads.in_channel = std::fmin(loads.in_channel, within);  // of nan and a number the number
     loads.beside_channel = std::fmax(loads.beside_channel, beside);
@@ -131,7 +130,7 @@ CodeLoads loads_on_upright(const CodeSilo& s, double height) {
 CodeLoads loads_on_floor(CodeSilo s, double height) {
   s.silo.height = s.top - height, s.silo.has_flat_bottom = true;
   const auto pressure = [&](Limit limit) {
-    return code::bottom_pressure(s.silo, s.solid.repose, s.values(Load::bottom, limit), s.weight);
+    return code::bottom_pressure(s.silo, s.solid.repose, s.values(Load::bottom, limit), s.weight(limit));
   };
   CodeLoads loads;
   loads.pressure_filling = loads.pressure_discharge = pressure(Limit::upper);
@@ -145,15 +144,16 @@ double ratio_of_hopper(const code::Solid& solid) {
 }
 
 CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, double top, double height) {
-  const auto above = silo_of_code(shape, top, hopper.top);
+  const auto above = silo_of_code(shape, top, {hopper.axis.x, hopper.axis.y, hopper.top});
   if (top > hopper.top && !above) return {};
   const continuum::Parameters& p = shape.layout.given;
   const double angle = std::atan(hopper.tangent), mean = hopper.friction, apex = hopper.apex(),
                end = std::min(top, hopper.top) - apex;
-  const double weight = bulk_density(p) * p.gravity.acceleration;
+  const double own_weight = bulk_density(p) * p.gravity.acceleration;
   const code::Solid solid = solid_of(p);
   const double ratio = ratio_of_hopper(solid);
   const auto stresses = [&](Load load, Limit limit) {
+    const double weight = limit == Limit::upper ? std::max(own_weight, solid.max_weight) : own_weight;
     Values values = code::values_for(solid, mean, load, limit);
     values.ratio = ratio;
     const granular::ConeBearing bearing =
@@ -178,9 +178,12 @@ CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, doubl
 CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top, double height) {
   if (!(height < top)) return {};
   const SiloPiece* const piece = shape.of_part(band.patch, height);
+  if (piece && !is_of(band, *piece)) return {};
   if (piece && piece->is_hopper()) return loads_on_hopper(shape, *piece, top, height);
   if (!piece && !(band.sine > 1 - 1e-3)) return {};
-  const auto silo = silo_of_code(shape, top, height);
+  const Vector3 place = place_of(shape, band, height);
+  if (piece && shape.upright_at(place) != piece) return {};
+  const auto silo = silo_of_code(shape, top, {place.x, place.y, height});
   if (!silo) return {};
   return piece ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
 }
@@ -188,7 +191,8 @@ CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top,
 CodePatch patch_of_code(const CodeSilo& s) {
   const double depth =
       std::min(code::characteristic_depth(s.silo, s.values(Load::wall_pressure, Limit::upper)), 0.5 * s.silo.height);
-  const double filled = s.filling(Load::wall_pressure, Limit::upper, s.top - depth).pressure;
+  const double filled = (s.silo.is_round ? 1 : code::patch_of_straight_walls) *
+                        s.filling(Load::wall_pressure, Limit::upper, s.top - depth).pressure;
   return {.filling = code::patch_of_filling(s.silo, s.solid.patch, 0) * filled,
           .discharge = code::patch_of_discharge(s.silo, s.solid.patch, s.eccentricity) *
                        code::discharge_factors(s.silo).pressure * filled,
@@ -199,21 +203,24 @@ CodePatch patch_of_code(const CodeSilo& s) {
 namespace {
 
 /// Each of the upright walls that the bed reaches.
-std::vector<CodeSilo> silos_of(const SiloShape& shape, double top) {
+/// \param is_bare parts that no grain has touched
+std::vector<CodeSilo> silos_of(const SiloShape& shape, double top, const std::set<std::size_t>& is_bare) {
   std::vector<CodeSilo> silos;
   for (const SiloPiece& piece : shape.pieces) {
     if (piece.is_hopper() || !(piece.bottom < top)) continue;
-    if (const auto silo = silo_of_code(shape, top, piece.bottom); silo && silo->part == piece.parts.front())
-      silos.push_back(*silo);
+    const double height = std::max(piece.bottom, shape.bottom_of(piece, top));
+    const auto silo = silo_of_code(shape, top, {piece.axis.x, piece.axis.y, height});
+    if (silo && silo->part == piece.parts.front() && is_bare.count(silo->part) == 0) silos.push_back(*silo);
   }
   return silos;
 }
 
 }  // namespace
 
-void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top) {
+void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top,
+                       const std::set<std::size_t>& is_bare) {
   std::vector<std::vector<double>> rows;
-  for (const CodeSilo& s : silos_of(shape, top)) {
+  for (const CodeSilo& s : silos_of(shape, top, is_bare)) {
     const CodePatch patch = patch_of_code(s);
     const code::DischargeFactors factors = code::discharge_factors(s.silo);
     const Values pressure = s.values(Load::wall_pressure, Limit::upper),
@@ -222,7 +229,7 @@ void write_design_code(const std::filesystem::path& run_folder, const SiloShape&
                     s.top,
                     s.silo.height,
                     s.silo.width,
-                    s.weight,
+                    s.weight(Limit::upper),
                     s.solid.ratio,
                     s.friction,
                     s.solid.internal / degree,
@@ -316,6 +323,8 @@ Answer answer_of_hopper(const SiloShape& shape, const SiloPiece& hopper) {
   text += steep ? fmt::format("; discharge by μ {:.3g} ({}), φ_i {:.3g}° ({})", flows, side_of(flows, hopper.friction),
                               internal / degree, side_of(internal, solid.internal))
                 : "; discharge as filling";
+  if (constexpr double slack = 0.05; steep && std::abs(hopper.shape() - code::conical) > slack)
+    text += ", n by the balance of a slice: the code's own is less than that by 2 - S and gives more";
   return {fmt::format("EN 1991-4 takes, {}", shape.name_of(hopper)),
           fmt::format("{}: half angle {:.3g}°, K {:.3g} (lower)", steep ? "steep" : "shallow", angle / degree, ratio),
           text};
@@ -332,21 +341,27 @@ std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesyste
   const double top = table.column("top").front();
   for (const SiloPiece& piece : shape.pieces)
     if (piece.is_hopper() && piece.bottom < top) answers.push_back(answer_of_hopper(shape, piece));
-  for (const CodeSilo& s : silos_of(shape, top)) {
+  std::set<std::size_t> is_bare;  // those without a row
+  for (const SiloPiece& piece : shape.pieces) is_bare.insert(piece.parts.begin(), piece.parts.end());
+  for (const double part : table.column("patch")) is_bare.erase(static_cast<std::size_t>(part) - 1);
+  for (const CodeSilo& s : silos_of(shape, top, is_bare)) {
     const std::string solid = s.is_listed
                                   ? std::string(choice_name(*shape.layout.given.grains.material)) + ", Table E.1"
-                                  : "not in Table E.1, φ_i of the law in a shear tester";
-    answers.push_back({fmt::format("EN 1991-4 takes, {}", s.name),
-                       fmt::format("{}: h_c/d_c {:.4g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
-                                   s.silo.slenderness(), 1e-3 * s.weight),
-                       fmt::format("{}; wall pressure by {}; floor and cone's top by {}", solid,
-                                   values_text(s, Load::wall_pressure), values_text(s, Load::bottom))});
+                                  : "without values of Table E.1: φ_i of the law in a shear tester";
+    answers.push_back(
+        {fmt::format("EN 1991-4 takes, {}", s.name),
+         fmt::format("{}: h_c/d_c {:.4g}, {:.3g} kN/m³{}", name_of_class(s.silo), s.silo.slenderness(),
+                     1e-3 * s.weight(Limit::upper), s.weight(Limit::upper) > s.own_weight ? " (upper)" : " of the bed"),
+         fmt::format("{}; wall pressure by {}; floor and cone's top by C_b 1, {}", solid,
+                     values_text(s, Load::wall_pressure), values_text(s, Load::bottom))});
     const CodePatch patch = patch_of_code(s);
     if (patch.filling > 0 || patch.discharge > 0)
-      answers.push_back({fmt::format("Patch load, {}", s.name), "a local load that EN 1991-4 adds",
-                         fmt::format("EN 1991-4: {} filling, {} discharge, upper values, at z = {} over {} of height",
-                                     pressure_text(patch.filling), pressure_text(patch.discharge),
-                                     length_text(patch.height), length_text(patch.extent))});
+      answers.push_back(
+          {fmt::format("Patch load, {}", s.name),
+           s.silo.is_round ? "a local load that EN 1991-4 adds" : "on all sides over that height, which EN 1991-4 adds",
+           fmt::format("EN 1991-4: {} filling, {} discharge, upper values, at z = {} over {} of height",
+                       pressure_text(patch.filling), pressure_text(patch.discharge), length_text(patch.height),
+                       length_text(patch.extent))});
     if (!s.has_channel()) continue;
     const CodeLoads lowest = loads_on_upright(s, s.bottom);
     answers.push_back(

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,20 +22,24 @@ struct CodeSilo {
   granular::en1991::Silo silo;
   granular::en1991::Solid solid;
   bool is_listed = false;      ///< in the code's table; else solid is unknown_solid() of the law's friction
-  double friction = 0;         ///< mean, of the wall
-  double weight = 0;           ///< gamma, of the bed, N/m^3
+  double friction = 0;         ///< mean, of the walls from here to the bed's top
+  double own_friction = 0;     ///< mean, of this wall
+  double own_weight = 0;       ///< gamma of the bed, N/m^3
   double top = 0, bottom = 0;  ///< of the bed, and of the walls or a floor within, m
   double eccentricity = 0;     ///< e_o, the farthest outlet's from the axis, m; e_f is 0: beds are laid level
 
   /// A round silo whose outlet is so far from its axis that the flow channel counts.
   bool has_channel() const;
+  /// gamma, N/m^3: for upper limits at least gamma_u of the code's table.
+  double weight(granular::en1991::Limit limit) const;
   granular::en1991::Values values(granular::en1991::Load load, granular::en1991::Limit limit) const;
   /// After filling, of the values for a load. \param height m
   granular::en1991::Stresses filling(granular::en1991::Load load, granular::en1991::Limit limit, double height) const;
 };
 
-/// Nothing where no upright walls reach from the height to the bed's top. \param top of the bed, m
-std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, double height);
+/// Nothing where no upright walls reach from a place to the bed's top, or where the silo ends above it. \param top of
+/// the bed, m
+std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, const Vector3& place);
 
 /// Characteristic loads on a band, Pa; nan where the code has no formula.
 struct CodeLoads {
@@ -56,8 +61,9 @@ struct CodePatch {
 CodePatch patch_of_code(const CodeSilo& silo);
 
 /// Writes analysis/en1991.csv: of each upright wall that the bed reaches what the code takes, and its patch load;
-/// nothing without such walls. \throws FileError
-void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top);
+/// nothing without such walls. \param is_bare parts that no grain has touched \throws FileError
+void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top,
+                       const std::set<std::size_t>& is_bare = {});
 
 /// The same as key results: class, values and limits, patch load, flow channel. \param run_folder with
 /// analysis/en1991.csv, if there is one \throws FileError

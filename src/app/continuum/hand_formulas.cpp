@@ -18,20 +18,29 @@ using continuum::VesselPart;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_angle = 30 * std::numbers::pi / 180;  // where the law has no friction of its own
 
-/// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
-double janssen_at(const SiloShape& shape, double ratio, double top, double height) {
+/// Janssen's stress at a place, Pa, wall by wall from the bed's top down; nan where no upright walls reach from there
+/// to the top, and below the silo's end.
+double janssen_at(const SiloShape& shape, double ratio, double top, const Vector3& place) {
   const continuum::Parameters& p = shape.layout.given;
-  const SiloPiece* wall = shape.upright_at(height);
-  if (!wall || wall->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
-  const double length = wall->friction > 0 ? wall->hydraulic_radius() / (wall->friction * ratio) : infinity;
-  return granular::janssen_stress(bulk_density(p) * p.gravity.acceleration, length, top - height);
+  const SiloPiece* wall = shape.upright_at(place);
+  const double height = place.z;
+  if (!wall || wall->bottom > height + p.bed.spacing || top <= height ||
+      shape.bottom_of(*wall, top) > height + p.bed.spacing)
+    return HopperRun::none;
+  const double weight = bulk_density(p) * p.gravity.acceleration;
+  double stress = 0;
+  for (const SiloShape::Ring& ring : shape.rings_above(*wall, height, top)) {
+    const double length = ring.friction > 0 ? wall->hydraulic_radius() / (ring.friction * ratio) : infinity;
+    stress = granular::janssen_stress(weight, length, ring.height, stress);
+  }
+  return stress;
 }
 
 PressureByHand pressure_of_hopper(const SiloShape& shape, const SiloPiece& hopper, double ratio, double top,
                                   double height) {
   const continuum::Parameters& p = shape.layout.given;
   const double angle = std::atan(hopper.tangent), apex = hopper.apex(), end = std::min(top, hopper.top) - apex;
-  const double above = top > hopper.top ? janssen_at(shape, ratio, top, hopper.top) : 0;
+  const double above = top > hopper.top ? janssen_at(shape, ratio, top, {hopper.axis.x, hopper.axis.y, hopper.top}) : 0;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   const auto pressure = [&](granular::ConeBearing bearing) {
     bearing.exponent *= 0.5 * hopper.shape();
@@ -147,7 +156,8 @@ std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum:
   // Of a square outlet as of a round one; of a slot, at least three times as long as wide, as of a wedge.
   const double opens =
       0.5 * std::max(hopper->upper_width - hopper->lower_width, hopper->upper_depth - hopper->lower_depth);
-  return outlet(first.length < 3 * first.narrow ? granular::HopperShape::cone : granular::HopperShape::wedge,
+  const bool is_slot = first.endless_along_x || first.endless_along_y || first.length >= 3 * first.narrow;
+  return outlet(!is_slot ? granular::HopperShape::cone : granular::HopperShape::wedge,
                 std::atan(opens / (hopper->top - hopper->bottom)), friction);
 }
 
@@ -156,12 +166,34 @@ double half_angle_of_cone(const continuum::Layout& layout) {
   return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
 }
 
+bool is_of(const BandOfWall& band, const SiloPiece& piece) {
+  constexpr double slack = 0.05;
+  return std::abs(band.sine - std::sin(std::atan(piece.tangent))) < slack;
+}
+
+Vector3 place_of(const SiloShape& shape, const BandOfWall& band, double height) {
+  const SiloPiece* const piece = shape.of_part(band.patch, height);
+  if (piece && !piece->is_hopper())
+    return {piece->axis.x, piece->axis.y, std::clamp(height, piece->bottom, std::nextafter(piece->top, piece->bottom))};
+  const continuum::Parameters& p = shape.layout.given;
+  const VesselPart& v = p.vessel[band.patch];
+  if (v.shape != continuum::VesselShape::plate) {
+    const Vector3 axis = continuum::on_axis(p, v);
+    return {axis.x, axis.y, height};
+  }
+  return {v.corner[0] + 0.5 * (v.first_edge[0] + v.second_edge[0]),
+          v.corner[1] + 0.5 * (v.first_edge[1] + v.second_edge[1]), height};
+}
+
 PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, double ratio, double top,
                                 double height) {
   if (!(height < top)) return {};
   const SiloPiece* const piece = shape.of_part(band.patch, height);
+  if (piece && !is_of(band, *piece)) return {};
   if (piece && piece->is_hopper()) return pressure_of_hopper(shape, *piece, ratio, top, height);
-  const double vertical = janssen_at(shape, ratio, top, height);
+  const Vector3 place = place_of(shape, band, height);
+  if (piece && shape.upright_at(place) != piece) return {};
+  const double vertical = janssen_at(shape, ratio, top, place);
   if (piece) return {ratio * vertical, ratio * vertical, HopperRun::none};
   return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none, HopperRun::none} : PressureByHand{};
 }

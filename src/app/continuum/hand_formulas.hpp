@@ -39,6 +39,11 @@ std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum:
 /// The half angle that it has, rad; nan without such a cone.
 double half_angle_of_cone(const continuum::Layout& layout);
 
+/// Whether a band is as steep as a piece: one of a file that spans two walls is of neither.
+bool is_of(const BandOfWall& band, const SiloPiece& piece);
+/// At a height, the axis of the walls that a band belongs to, or the middle of its part.
+Vector3 place_of(const SiloShape& shape, const BandOfWall& band, double height);
+
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {
   double at_rest = HopperRun::none, in_flow = HopperRun::none;

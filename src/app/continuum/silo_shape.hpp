@@ -46,8 +46,16 @@ class SiloShape {
 
   /// The piece that a part of the vessel belongs to at a height, or at most a spacing from it; null: none.
   const SiloPiece* of_part(std::size_t part, double height) const;
-  /// The upright walls that hold a height, or stand next above it; null without.
-  const SiloPiece* upright_at(double height) const;
+  /// The upright walls about a place that hold its height, or stand next above it. Null without, and where a bed
+  /// stands about others within them. \param place of its x and y nothing counts if the walls stand on one axis
+  const SiloPiece* upright_at(const Vector3& place) const;
+  /// Where the walls of a silo end: those that stand under these too count, a level floor and a hopper within.
+  double bottom_of(const SiloPiece& wall, double top) const;
+  /// Down from the bed's top to a height, the walls on one axis with these: each holds what it is the next above.
+  struct Ring {
+    double friction = 0, height = 0;  ///< height: of the bed beside it, m
+  };
+  std::vector<Ring> rings_above(const SiloPiece& wall, double height, double top) const;
   /// The names of a piece's parts: "wall_left, wall_right".
   std::string name_of(const SiloPiece& piece) const;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -48,9 +49,10 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   for (const BandOfWall& band : bands) {
     if (!(band.area > 0)) continue;
     const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to, run.setting.averaging_time);
-    const double middle = 0.5 * (band.low + band.high);
-    const PressureByHand hand = pressure_by_hand(shape, band, ratio, top, middle);
-    const CodeLoads code = code_loads(shape, band, top, middle);
+    // Of what the bed covers of it.
+    const double middle = 0.5 * (band.low + (band.low < top ? std::min(band.high, top) : band.high));
+    const PressureByHand hand = band.is_bare ? PressureByHand{} : pressure_by_hand(shape, band, ratio, top, middle);
+    const CodeLoads code = band.is_bare ? CodeLoads{} : code_loads(shape, band, top, middle);
     rows.push_back({static_cast<double>(band.patch + 1),
                     band.low,
                     band.high,
@@ -103,7 +105,11 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
                {"en_pressure_in_channel", "Pa"},
                {"en_pressure_beside_channel", "Pa"}},
               rows);
-  write_design_code(run_folder, shape, top);
+  std::set<std::size_t> is_bare;
+  for (const BandOfWall& band : bands) is_bare.insert(band.patch);
+  for (const BandOfWall& band : bands)
+    if (!band.is_bare) is_bare.erase(band.patch);
+  write_design_code(run_folder, shape, top, is_bare);
   if (curves.empty()) return;
   std::vector<std::vector<double>> against_time;
   for (std::size_t n = 0; n < curves.front().time.size(); ++n) {

@@ -208,6 +208,8 @@ std::optional<granular::en1991::Solid> solid_of_code(GrainMaterial material) {
   set("ratio_factor", solid.ratio_factor, dimension::none);
   set("friction_factor", solid.friction_factor, dimension::none);
   set("patch", solid.patch, dimension::none);
+  const Parameter weight{"en1991.unit_weight.range", Dimension{-2, 1, -2, 0}};
+  solid.max_weight = read<std::vector<double>>(file, weight.key, weight).value().at(1);
   return solid;
 }
 

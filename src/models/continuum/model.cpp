@@ -319,6 +319,18 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
        slow < 0.5 && !std::isfinite(setup_->material.range().max_inertial_number)},
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
+  if (const std::size_t rows = record.series.rows(); rows > 1 && setup_->outlet) {
+    const std::span<const double> time = record.series.column("time");
+    const double apart = (time.back() - time.front()) / static_cast<double>(rows - 1),
+                 half = 0.5 * setup_->scales.averaging_time;
+    lines.push_back(
+        {"time between rows of the series over T/2", fmt::format("{:.3g}", apart / half),
+         fmt::format("peaks and rates are averages over T/2 = {:.3g} s and T, or over what is between two "
+                     "rows, if that is longer; what passes after the last row does not count: take a shorter "
+                     "output.series",
+                     half),
+         apart > 2 * half});
+  }
   if (const double most = setup_->material.range().max_pressure; std::isfinite(most)) {
     const double pressure = end.max_pressure;
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),

@@ -18,7 +18,7 @@ constexpr double beyond_faces = 2;    // in spacings
 constexpr std::int64_t tag_of_inlets = -1;
 
 bool has_room(const Parameters& p, const State& s, const Share& share, const InletLayer& layer, const Vector3& moved) {
-  const double room = room_between * p.bed.spacing;
+  const double fine = p.bed.spacing;
   Vector3 low = layer.places.front(), high = low;
   for (const Vector3& x : layer.places)
     for (int axis = 0; axis < 3; ++axis)
@@ -27,6 +27,7 @@ bool has_room(const Parameters& p, const State& s, const Share& share, const Inl
   for (std::size_t i = 0; i < s.position.size() && has_room; ++i) {
     if (!share.owns(i)) continue;
     const Vector3 x = s.position[i] - moved;
+    const double room = room_between * 0.5 * (fine + fine * std::cbrt(s.mass_of(i) / s.mass));
     bool near = true;
     for (int axis = 0; axis < 3; ++axis) near = near && x[axis] > low[axis] - room && x[axis] < high[axis] + room;
     if (!near) continue;

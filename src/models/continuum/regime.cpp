@@ -21,6 +21,7 @@ constexpr double min_across = 12;  // particles
 constexpr double min_outlet_over_axis = 2.8;
 constexpr double notable_share = 0.1;  // of an outlet, of a wall
 constexpr double notable_viscosity = 0.2;
+constexpr double notable_compression = 0.05;
 
 /// Over its area, Pa.
 double weight_of_bed(const Setup& setup) {
@@ -72,6 +73,18 @@ void add_pressure_at_start(const Setup& setup, std::vector<RegimeLine>& lines) {
                                "law.critical-state.reference_packing, {:.4g}",
                                weight, law.reference_packing),
                    pressure > weight});
+}
+
+/// A bed that is too soft for its weight is another bed once it has settled.
+void add_compression(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const double modulus = setup.density * setup.sound_speed * setup.sound_speed, weight = weight_of_bed(setup);
+  if (!(weight > 0)) return;
+  lines.push_back(
+      {"weight of the bed over its modulus", fmt::format("{:.2g}", weight / modulus),
+       fmt::format("of {:.3g} Pa, density times the square of the sound speed: the share by which the bed's "
+                   "foot is compressed; above {:g} take larger moduli of the law",
+                   modulus, notable_compression),
+       weight > notable_compression * modulus});
 }
 
 /// What a sector is, and what of the outlet is as coarse as its axis, where its copies stand in a ring.
@@ -137,12 +150,35 @@ void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
   for (const VesselOutlet& outlet : outlets) {
     const std::string name = outlets.size() > 1 ? " " + outlet.name : "";
     add_outlet(p, outlet.narrow, name, lines);
+    if (const double covered = share_covered(setup, outlet); covered > 0)
+      lines.push_back(
+          {"share of the outlet" + name + " with a wall just above", fmt::format("{:.2g}", covered),
+           "what is open there is narrower than the gate, by which the outlet's width and what follows from "
+           "it are taken: give the gate the size of the hole",
+           covered > notable_share});
     if (const double blocked = share_blocked_below(setup, outlet); blocked > 0)
       lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),
                        fmt::format("nearer than it is across, {:.4g} mm: grains that do not fall freely there leave "
                                    "more slowly than the analytical estimate says",
                                    outlet.narrow / millimetre),
                        blocked > notable_share});
+  }
+}
+
+/// Mass comes in by whole layers.
+void add_inlets(const Setup& setup, std::vector<RegimeLine>& lines) {
+  constexpr double min_layers = 5;
+  const Parameters& p = setup.given;
+  for (std::size_t n = 0; n < p.inlets.size(); ++n) {
+    const Inlet& inlet = p.inlets[n];
+    if (!inlet.to) continue;
+    const double layers = (*inlet.to - inlet.from) / layer_of(setup, inlet).interval,
+                 asked = inlet.rate * (*inlet.to - inlet.from);
+    lines.push_back({fmt::format("layers of grains through inlet {}", n + 1), fmt::format("{:.3g}", layers),
+                     fmt::format("of {:.3g} kg each, of which it lets whole ones in: with fewer than {:g} the mass of "
+                                 "{:.4g} kg is missed by a tenth or more; take a smaller bed.spacing or inlet",
+                                 asked / layers, min_layers, asked),
+                     layers < min_layers});
   }
 }
 
@@ -215,10 +251,12 @@ std::vector<RegimeLine> regime_of_case(const Setup& setup) {
   lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});
+  add_compression(setup, lines);
   add_sector(setup, lines);
   for (RegimeLine& line : regime_of_bed(setup)) lines.push_back(std::move(line));
   add_outlets(setup, lines);
   add_viscosity(setup, lines);
+  add_inlets(setup, lines);
   add_air(setup, lines);
   add_walls_beyond_box(setup, lines);
   add_rims(setup, lines);

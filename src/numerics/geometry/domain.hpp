@@ -51,7 +51,6 @@ struct Mirror {
 
 /// Boundaries that can carry load, by number: the six faces, then the walls.
 inline constexpr int max_inner_walls = 10;
-inline constexpr int max_walls = 6 + max_inner_walls;
 constexpr int wall_number(int wall) {
   return 6 + wall;
 }

@@ -110,11 +110,15 @@ class Numbering {
 
 std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, double bound, int side) {
   std::vector<Vector3> left;
+  const auto at = [&](const Vector3& x) { return side * (x[axis] - bound); };
   for (std::size_t n = 0; n < polygon.size(); ++n) {
     const Vector3 &a = polygon[n], &b = polygon[(n + 1) % polygon.size()];
-    const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
-    if (at_a >= 0) left.push_back(a);
-    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) left.push_back(a + (at_a / (at_a - at_b)) * (b - a));
+    if (at(a) >= 0) left.push_back(a);
+    if (at(a) * at(b) >= 0) continue;
+    const auto& [from, to] = at(a) > 0 ? std::pair(a, b) : std::pair(b, a);  // the same of both triangles of an edge
+    Vector3 x = from + (at(from) / (at(from) - at(to))) * (to - from);
+    x[axis] = bound;
+    left.push_back(x);
   }
   return left;
 }

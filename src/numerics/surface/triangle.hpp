@@ -32,7 +32,8 @@ Vector3 nearest_place(const Triangle& triangle, const Vector3& x);
 /// same numbers: no line slips through between them. A plane belongs to the side of its normal.
 std::optional<double> crossing(const Triangle& triangle, const Vector3& a, const Vector3& b);
 
-/// What of a convex polygon lies above (side 1) or below (-1) a bound along an axis.
+/// What of a convex polygon lies above (side 1) or below (-1) a bound along an axis. Polygons with a common edge get
+/// the same corner on it.
 std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, double bound, int side);
 
 class TriangleEdges {

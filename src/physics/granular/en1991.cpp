@@ -65,9 +65,12 @@ Solid unknown_solid(double internal) {
 Values values_for(const Solid& solid, double friction, Load load, Limit limit) {
   const int side = limit == Limit::upper ? 1 : limit == Limit::lower ? -1 : 0;
   const Signs signs = signs_of(load);
-  return {friction * std::pow(solid.friction_factor, side * signs.friction),
-          std::min(1.0, solid.ratio * std::pow(solid.ratio_factor, side * signs.ratio)),
-          std::min(solid.internal * std::pow(solid.internal_factor, side * signs.internal), 0.5 * pi)};
+  const auto internal = [&](int sign) {
+    return std::min(solid.internal * std::pow(solid.internal_factor, side * sign), 0.5 * pi);
+  };
+  return {
+      std::min(friction * std::pow(solid.friction_factor, side * signs.friction), std::tan(internal(signs.friction))),
+      std::min(1.0, solid.ratio * std::pow(solid.ratio_factor, side * signs.ratio)), internal(signs.internal)};
 }
 
 Class class_of(const Silo& silo) {

@@ -17,6 +17,7 @@ struct Solid {
   double ratio = 0, ratio_factor = 1;        ///< K_m, wall over vertical stress, and a_K
   double friction_factor = 1;                ///< a_mu
   double patch = 1;                          ///< C_op
+  double max_weight = 0;                     ///< gamma_u, N/m^3; 0: not known
 };
 
 /// K_m = 1.1 (1 - sin phi_im) (4.3.3), phi_r = phi_im up to 45 degrees, and the factors of a solid that the code does
@@ -33,7 +34,8 @@ struct Values {
 };
 
 /// The values that make a load largest (table 3.1), or, for its lower limit, the opposite ones: a mean times or over
-/// its factor, K at most 1, as in a liquid. \param friction mean of the wall
+/// its factor; K at most 1, as in a liquid, and no wall rougher than the grains, mu at most tan phi_i on the same side of its mean. \param friction
+/// mean of the wall
 Values values_for(const Solid& solid, double friction, Load load, Limit limit);
 
 /// The part of a silo with upright walls.
@@ -78,6 +80,8 @@ DischargeFactors discharge_factors(const Silo& silo);
 /// eccentricity e_f of the top pile, e_o of the outlet, m
 double patch_of_filling(const Silo& silo, double solid_factor, double eccentricity);
 double patch_of_discharge(const Silo& silo, double solid_factor, double eccentricity);
+/// The share of it by which the pressure on all sides of a silo that is not round rises over that extent.
+inline constexpr double patch_of_straight_walls = 0.36;
 /// Its extent along the wall, s = pi d_c/16, m (5.2.1.2).
 double patch_extent(const Silo& silo);
 

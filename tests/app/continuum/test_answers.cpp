@@ -63,6 +63,25 @@ TEST_F(Answers, StandBesideTheAnalyticalEstimates) {
   EXPECT_EQ(find("Walls carry at rest").answer, "99.2 % of the weight");
 }
 
+TEST_F(Answers, SayWhatInletsCouldNotBringIn) {
+  continuum::Parameters p = small_silo();
+  continuum::Inlet inlet;
+  inlet.centre = {0.05, 0.05, 0.15}, inlet.radius = 0.01, inlet.shape = continuum::InletShape::disc;
+  inlet.velocity = {0, 0, -1}, inlet.rate = 0.5, inlet.from = 1, inlet.to = 3;
+  p.inlets = {inlet};
+  p.gate.opens = continuum::GateOpens::when_settled;
+  const auto fed = [&](double mass) {
+    quantities.push_back({"fed_mass", "kg", mass});
+    std::string found;
+    for (const Answer& answer : answers_of(continuum::Setup(p), quantities, 1, folder))
+      if (answer.question == "Fed") found = answer.answer;
+    quantities.pop_back();
+    return found;
+  };
+  EXPECT_EQ(fed(0.98), "");
+  EXPECT_EQ(fed(0.4), "400 g of 1 kg: inlets had no room for more");
+}
+
 TEST_F(Answers, OfASiloThatWasNotOpenForLongClaimNoArch) {
   set("residual_fraction", 1), set("residual_mass", 12.3), set("flow_stop_time", none), set("outlet_packing", 0.6);
   set("emptying_time", none);

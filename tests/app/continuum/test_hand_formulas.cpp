@@ -202,6 +202,20 @@ TEST(PressureByHand, OfAConeIsEnstadsToo) {
   EXPECT_TRUE(std::isnan(in_flow(10, 0.08))) << "arcs of half a circle";
 }
 
+TEST(PressureByHand, OfRingsOfOtherFrictionCarriesTheStressOfThoseAbove) {
+  continuum::Parameters p = small_silo();
+  p.vessel.push_back(p.vessel[0]);
+  p.vessel[0].top = p.vessel.back().bottom = 0.12;
+  p.vessel.back().name = "upper", p.vessel.back().friction = 0.1;
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
+  const auto length = [](double friction) { return 0.06 / (4 * friction * ratio); };
+  const double above = granular::janssen_stress(weight, length(0.1), top - 0.12);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[0], ratio, top, 0.1).at_rest,
+              ratio * granular::janssen_stress(weight, length(0.3), 0.02, above), 1e-9);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.13).at_rest,
+              ratio * granular::janssen_stress(weight, length(0.1), top - 0.13), 1e-9);
+}
+
 TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {
   continuum::Parameters p = small_silo();
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));

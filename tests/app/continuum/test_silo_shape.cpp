@@ -86,7 +86,7 @@ TEST(SiloShape, OfPlatesAreUprightWallsOnAWedge) {
   EXPECT_EQ(shape.name_of(walls), "left, right");
   EXPECT_EQ(shape.of_part(2, 2), &wedge);
   EXPECT_EQ(shape.of_part(2, 5), nullptr);
-  EXPECT_EQ(shape.upright_at(2), &walls);
+  EXPECT_EQ(shape.upright_at({1.7, 0.75, 2}), &walls);
 }
 
 TEST(SiloShape, WallsAcrossTheEndsOfASlotAreOfItsSection) {
@@ -171,6 +171,7 @@ TEST(SiloShape, GivesWallsOfAFileTheirEstimates) {
   for (const double height : {0.075, 0.0915, 0.12}) {  // the second less than a spacing above the cone
     BandOfWall of_drawn, of_exact;
     of_exact.patch = height < 0.09 ? 1 : 0;
+    of_drawn.sine = of_exact.sine = height < 0.09 ? 0.5 : 0;
     const PressureByHand hand = pressure_by_hand(drawn, of_drawn, 0.5, 0.15, height),
                          known = pressure_by_hand(exact, of_exact, 0.5, 0.15, height);
     same(hand.at_rest, known.at_rest), same(hand.in_flow, known.in_flow);
@@ -189,6 +190,7 @@ TEST(SiloShape, TheLoadsOfAWedgeBalanceItsSlices) {
   BandOfWall band;
   band.patch = 2;
   const double top = 9, weight = 0.6 * 1250 * 9.81, angle = std::atan(1.125 / 2), step = 1e-4;
+  band.sine = std::sin(angle);
   // Of a slice between two planes: d(sigma x)/dx = p (1 + mu/tan beta) - weight x, x from where they would meet.
   const auto vertical = [&](double z) {
     return pressure_by_hand(shape, band, 0.5, top, z).in_flow /
@@ -198,6 +200,24 @@ TEST(SiloShape, TheLoadsOfAWedgeBalanceItsSlices) {
   const double force = (vertical(z + step) * (x + step) - vertical(z - step) * (x - step)) / (2 * step);
   const double carried = pressure_by_hand(shape, band, 0.5, top, z).in_flow * (1 + 0.3 / std::tan(angle));
   EXPECT_NEAR(force, carried - weight * x, 1e-3 * carried);
+}
+
+TEST(SiloShape, OfSeveralUprightWallsHasThoseAboutAPlace) {
+  continuum::Parameters p = small_silo();
+  p.box.width = 0.2;
+  for (continuum::VesselPart& part : p.vessel) part.centre = {0.04, 0.05};
+  p.vessel.push_back(p.vessel[0]);
+  p.vessel.back().centre = {0.14, 0.05}, p.vessel.back().radius = 0.05, p.vessel.back().bottom = 0.02;
+  const continuum::Layout beside(p);
+  const SiloShape bins(beside);
+  EXPECT_EQ(bins.upright_at({0.04, 0.05, 0.1})->parts.front(), 0u);
+  EXPECT_EQ(bins.upright_at({0.14, 0.05, 0.1})->parts.front(), 3u);
+  p.vessel.back().centre = {0.04, 0.05}, p.vessel.back().radius = 0.04;
+  const continuum::Layout clad(p);
+  EXPECT_EQ(SiloShape(clad).upright_at({0.04, 0.05, 0.1})->parts.front(), 0u) << "the outlet is within these";
+  p.vessel.erase(p.vessel.begin() + 1, p.vessel.begin() + 3);
+  const continuum::Layout column(p);
+  EXPECT_EQ(SiloShape(column).upright_at({0.04, 0.05, 0.1}), nullptr) << "a bed about a column";
 }
 
 TEST(SiloShape, HasNoPieceOfWhatIsNoSilo) {

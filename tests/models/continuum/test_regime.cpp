@@ -11,6 +11,7 @@
 #include <string>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/vessel_parts.hpp"
 #include "numerics/run_record.hpp"
 
 namespace talus::continuum {
@@ -69,6 +70,32 @@ TEST(RegimeOfCase, WarnsOfABedUnderPressureBeforeItsWeight) {
   EXPECT_TRUE(warns(p, "pressure-of-the-bed-at-the-start"));
   p.bed.packing = 0.55;
   EXPECT_FALSE(warns(p, "pressure-of-the-bed-at-the-start"));
+}
+
+TEST(RegimeOfCase, WarnsOfABedThatItsWeightCompresses) {
+  Parameters p = hopper();
+  const double weight = bulk_density(p) * 9.81 * p.bed.height;
+  p.law = granular::LinearElastic::Parameters{.lambda = 21 * weight, .shear_modulus = 1e-3 * weight};
+  EXPECT_FALSE(warns(p, "weight-of-the-bed-over-its-modulus"));
+  p.law = granular::LinearElastic::Parameters{.lambda = 19 * weight, .shear_modulus = 1e-3 * weight};
+  EXPECT_TRUE(warns(p, "weight-of-the-bed-over-its-modulus"));
+}
+
+TEST(RegimeOfCase, WarnsOfInletsOfFewLayers) {
+  Parameters p = room(20, 20, 20);
+  p.bed.height = 0;
+  Inlet inlet;
+  inlet.centre = {10 * spacing, 10 * spacing, 15 * spacing};
+  inlet.width = inlet.depth = 4 * spacing;
+  inlet.velocity = {0, 0, -1};
+  inlet.to = 1;
+  p.inlets = {inlet};
+  p.inlets[0].rate = 1;
+  const double layer = layer_of(Layout(p), p.inlets[0]).interval;  // kg
+  p.inlets[0].rate = 6 * layer;
+  EXPECT_FALSE(warns(p, "layers-of-grains-through-inlet-1"));
+  p.inlets[0].rate = 4 * layer;
+  EXPECT_TRUE(warns(p, "layers-of-grains-through-inlet-1"));
 }
 
 TEST(RegimeOfCase, WarnsOfAnOutletTooNarrowForParticlesOrGrains) {

@@ -128,6 +128,9 @@ TEST(En1991, CharacteristicValuesMakeEachLoadLargestOrSmallest) {
     EXPECT_LT(of(load, Limit::lower), of(load, Limit::mean));
     EXPECT_LT(of(load, Limit::mean), of(load, Limit::upper));
   }
+  EXPECT_NEAR(values_for(wheat, 0.9, Load::wall_pressure, Limit::upper).friction, std::tan(30 * degree / 1.12), 1e-12)
+      << "no wall is rougher than the grains";
+  EXPECT_NEAR(values_for(wheat, 0.9, Load::wall_shear, Limit::upper).friction, std::tan(30 * degree * 1.12), 1e-12);
   const Solid unknown = unknown_solid(30 * degree);
   EXPECT_NEAR(unknown.ratio, 0.55, 1e-12);
   EXPECT_EQ(unknown.repose, unknown.internal);

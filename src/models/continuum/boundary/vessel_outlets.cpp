@@ -184,24 +184,37 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
   return outlets;
 }
 
-double share_blocked_below(const Layout& layout, const VesselOutlet& outlet) {
+namespace {
+
+/// Share of an outlet from which a wall is nearer than a way up or down. \param way m, negative downwards
+double share_with_wall(const Layout& layout, const VesselOutlet& outlet, double way) {
   const Parameters& p = layout.given;
   Boundary boundary = *layout.boundary;
   boundary.move_gates(std::numeric_limits<double>::infinity());
   const Surface& surface = boundary.vessel();
   constexpr int across = 16;
-  const double height = outlet.narrow, start = 0.01 * height;
-  const bool floor = is_mirror(p.box.floor) && outlet.middle.z < height;
+  const double start = std::copysign(0.01 * outlet.narrow, way);
   double all = 0, blocked = 0;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j) {
       const auto along = [](int n, double extent) { return ((n + 0.5) / across - 0.5) * extent; };
-      const Vector3 x = outlet.middle + Vector3{along(i, outlet.width), along(j, outlet.depth), -start};
+      const Vector3 x = outlet.middle + Vector3{along(i, outlet.width), along(j, outlet.depth), start};
       if (!outlet.is_beside(x, 0) || x.x < 0 || x.y < 0 || x.x > p.box.width || x.y > p.box.depth) continue;
       ++all;
-      blocked += floor || surface.first_crossing(x, x - Vector3{0, 0, height}).has_value();
+      blocked += surface.first_crossing(x, x + Vector3{0, 0, way}).has_value();
     }
   return all > 0 ? blocked / all : 0;
+}
+
+}  // namespace
+
+double share_blocked_below(const Layout& layout, const VesselOutlet& outlet) {
+  if (is_mirror(layout.given.box.floor) && outlet.middle.z < outlet.narrow) return 1;
+  return share_with_wall(layout, outlet, -outlet.narrow);
+}
+
+double share_covered(const Layout& layout, const VesselOutlet& outlet) {
+  return share_with_wall(layout, outlet, 2 * layout.given.bed.spacing);
 }
 
 }  // namespace talus::continuum

@@ -41,5 +41,7 @@ double distance_of_walls(FaceKind a, FaceKind b, double extent);
 /// Share of an outlet below which a wall of the vessel or the floor is nearer than the outlet is across, 0 to 1: grains
 /// do not fall freely there. Gates are taken to be open.
 double share_blocked_below(const Layout& layout, const VesselOutlet& outlet);
+/// Share of it that a wall of the vessel covers, closer above than two spacings: what is open is narrower than it.
+double share_covered(const Layout& layout, const VesselOutlet& outlet);
 
 }  // namespace talus::continuum

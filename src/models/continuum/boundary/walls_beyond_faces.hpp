@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Walls of a vessel that end at a face of the box: what lies behind it.
+/// Walls of a vessel at the faces of the box: what lies behind these.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,9 @@
 
 namespace talus::continuum {
 
-/// The triangles, without those that lie behind a plane of symmetry as a whole, and with images of patches that end at
-/// a mirror or a periodic face: a particle beside it, whose neighbours have images there, is held by a whole wall. A
-/// patch ends at a face if an edge lies in it and no part beyond it; at periodic faces if it is beyond neither of the
-/// two.
-/// \param reach how far behind a face walls are needed, m
+/// The triangles, cut at upright mirror and periodic faces, with images of patches that end there: a particle beside
+/// such a face, whose neighbours have images behind it, is held by a whole wall. A patch ends at a face if, once cut,
+/// an edge lies in it. At periodic faces a patch that goes on by `reach` beyond both stays as it is. \param reach how far behind a face walls are needed, m
 std::vector<Triangle> with_walls_beyond_faces(std::vector<Triangle> triangles, const Box& box, double reach);
 
 }  // namespace talus::continuum

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace talus::continuum {
 namespace {
@@ -57,17 +59,45 @@ TEST(WallsBeyondFaces, APeriodicFaceHasCopiesOfWhatLiesAtTheOther) {
   EXPECT_NEAR(seen(half).low, -0.1, 1e-12);
 }
 
-TEST(WallsBeyondFaces, WallsThatGoOnOrKeepAwayFromAFaceStayAsTheyAre) {
-  for (const auto& [from, to] : {std::pair{-0.5, 1.5}, {0.1, 0.9}}) {
-    for (const FaceKind kind : {FaceKind::wall, FaceKind::periodic, FaceKind::open})
-      EXPECT_EQ(with_walls_beyond_faces(sheet(from, to), box_with(kind, kind), reach), sheet(from, to));
+TEST(WallsBeyondFaces, WallsThatGoOnAreCutAndThoseThatKeepAwayStayAsTheyAre) {
+  for (const FaceKind kind : {FaceKind::wall, FaceKind::symmetry, FaceKind::periodic}) {
+    for (const double beyond : {0.01, 0.5}) {
+      const double far = kind == FaceKind::periodic ? std::max(beyond, reach) : reach;
+      expect_extent(with_walls_beyond_faces(sheet(-beyond, 1 + beyond), box_with(kind, kind), reach), -far, 1 + far);
+    }
+    EXPECT_EQ(with_walls_beyond_faces(sheet(0.1, 0.9), box_with(kind, kind), reach), sheet(0.1, 0.9));
   }
-  const auto open = with_walls_beyond_faces(sheet(0, 1), box_with(FaceKind::open, FaceKind::open), reach);
-  EXPECT_EQ(open, sheet(0, 1));
+  for (const auto& [from, to] : {std::pair{-0.5, 1.5}, {0.0, 1.0}})
+    EXPECT_EQ(with_walls_beyond_faces(sheet(from, to), box_with(FaceKind::open, FaceKind::open), reach),
+              sheet(from, to));
+}
+
+TEST(WallsBeyondFaces, APlateAboutAnAxisIsThereOnceAndWithoutGaps) {
+  Box box = box_with(FaceKind::symmetry, FaceKind::open);
+  box.faces[2] = FaceKind::symmetry;
+  const Vector3 middle{0, 0, 0.5};
+  std::vector<Triangle> fan;  // its corners miss the planes by rounding
+  const auto corner = [&](int n) {
+    const double angle = 2 * std::numbers::pi * n / 36;
+    return middle + Vector3{std::cos(angle), std::sin(angle), 0};
+  };
+  for (int n = 0; n < 36; ++n) fan.push_back({{middle, corner(n), corner(n + 1)}, 0});
+  const std::vector<Triangle> whole = with_walls_beyond_faces(fan, box, reach);
+  const std::vector<Rim> rims = rims_of(whole);
+  ASSERT_EQ(rims.size(), 1u) << "what images share with their walls are the same corners";
+  EXPECT_NEAR(seen(whole).low, -reach, 1e-12);
+  const double quarter = 0.25 * 36 * 0.5 * std::sin(2 * std::numbers::pi / 36);
+  EXPECT_GT(seen(whole).area, quarter + 2 * reach * 0.9);
+  EXPECT_LT(seen(whole).area, quarter + 2 * reach + reach * reach);
+}
+
+TEST(WallsBeyondFaces, PartsOfACutEdgeMeetInOneCorner) {
+  const auto cut = with_walls_beyond_faces(sheet(-0.37, 1), box_with(FaceKind::symmetry, FaceKind::open), reach);
+  EXPECT_EQ(rims_of(cut).size(), 1u);
 }
 
 TEST(WallsBeyondFaces, EachPatchByItself) {
-  std::vector<Triangle> both = sheet(-0.5, 1, 0), other = sheet(0, 1, 1);
+  std::vector<Triangle> both = sheet(0.1, 1, 0), other = sheet(0, 1, 1);
   both.insert(both.end(), other.begin(), other.end());
   const auto all = with_walls_beyond_faces(both, box_with(FaceKind::symmetry, FaceKind::open), reach);
   const auto area_of = [&](std::uint32_t patch) {
@@ -75,11 +105,11 @@ TEST(WallsBeyondFaces, EachPatchByItself) {
     for (const Triangle& t : all) area += t.patch == patch ? t.area().z : 0;
     return area;
   };
-  EXPECT_NEAR(area_of(0), 1.5, 1e-12);
+  EXPECT_NEAR(area_of(0), 0.9, 1e-12);
   EXPECT_NEAR(area_of(1), 1 + reach, 1e-12);
 }
 
-TEST(WallsBeyondFaces, AWallInAFaceHasNoImageAndOneBehindASymmetryIsLeftOut) {
+TEST(WallsBeyondFaces, AWallInAFaceHasNoImageAndOneBehindAMirrorIsLeftOut) {
   std::vector<Triangle> upright = {{{Vector3{0, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}, 0}};
   const Box box = box_with(FaceKind::symmetry, FaceKind::open);
   EXPECT_EQ(with_walls_beyond_faces(upright, box, reach), upright);
