@@ -187,6 +187,12 @@ class OfASector(unittest.TestCase):
         header, *rows = (self.folder / "elements.csv").read_text(encoding="utf-8").splitlines()
         of = dict(zip((name.split(" ")[0] for name in header.split(",")), np.array([row.split(",") for row in rows], dtype=float).T))
         self.assertIn("en_pressure_discharge [Pa]", header.split(","))
+        # Normals point into the bed.
+        wall, floor = of["patch"] == 0, of["patch"] == 1
+        middle = [of[name][wall].mean() for name in "xy"]
+        inwards = sum((middle[n] - of[name]) * of[f"normal_{name}"] for n, name in enumerate("xy"))
+        self.assertGreater(inwards[wall].min(), 0)
+        self.assertGreater(of["normal_z"][floor].min(), 0)
         # What elements carry in flow is what the series has of the wall in that time.
         begin, end = talus.element_loads.window(self.read)
         time, wall = np.asarray(self.read.series["time"]), of["patch"] == 0
