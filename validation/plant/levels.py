@@ -19,7 +19,7 @@ import talus  # noqa: E402
 REFERENCE = study.rows_of(HERE, "levels-")
 AIR = {"grains.diameter": "0.2 mm", "air.enabled": True, "air.cell": "7.5 mm", "air.drag": "ergun-wen-yu", "air.floor": "open",
        "air.top": "wall", "run.end": "0.45 s"}
-CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {}),
+CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {"removal.below": "10 mm"}),
          "air": ("levels-slit.toml", AIR), "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
 LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
@@ -88,10 +88,10 @@ def comes_back(run):
     return float(np.mean(found))
 
 
-def left(run, behind):
+def left(run, behind, column="removed_mass"):
     """What has left the vessel so long after the opening, kg."""
     time = np.asarray(run.series["time"]) - run.gate_time
-    return float(np.interp(behind, time, np.asarray(run.series["removed_mass"])))
+    return float(np.interp(behind, time, np.asarray(run.series[column])))
 
 
 def suction(run):
@@ -128,7 +128,7 @@ def measure(options):
             **{f"levels-wave-{case}": comes_back(runs[case, 1]) - comes_back(runs[case, 0]) for case in ("finer", "coarser")},
             "levels-rate": over_one_size("silo", lambda run: run.summary["discharge_steady"]),
             "levels-left": over_one_size("silo", lambda run: left(run, BEHIND)),
-            "levels-air": over_one_size("air", lambda run: left(run, BEHIND_AIR)),
+            "levels-air": over_one_size("air", lambda run: left(run, BEHIND_AIR, "discharged_mass")),
             "levels-air-pressure": over_one_size("air", suction),
             "levels-density": over_one_size("silo", density_over_sum)}, runs
 

@@ -99,9 +99,10 @@ Forecast forecast(const Setup& setup, const run::RunParameters& run) {
   forecast.phases.push_back(
       {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
   const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
+  const double whole = run.end * (1 + f.settling_steps / f.flow_steps);
   forecast.disk_bytes =
-      (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 300 * f.load_fields + 20e3) +
-      2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;
+      (whole / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 150 * f.drawn_triangles + 20e3) +
+      (run.report ? 5e6 : 0) + 2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;
   return forecast;
 }
 
@@ -356,6 +357,9 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   for (const std::size_t n : continuum::inlets_after(p, end))
     prepared.regime.push_back({continuum::inlet_key(n, "from"), fmt::format("{:.4g} s", p.inlets[n].from),
                                fmt::format("nothing comes in before run.end, {:.4g} s", end), true});
+  if (const double opens = continuum::first_opening(setup->vessel_outlets); opens >= end && end > 0)
+    prepared.regime.push_back({"opening of the first gate", fmt::format("{:.4g} s", opens),
+                               fmt::format("none opens before run.end, {:.4g} s", end), true});
   prepared.start = [setup] { return bed_lines(*setup); };
   prepared.draw_start = [setup, title = read.run.title](const std::filesystem::path& path) {
     draw_bed(*setup, title, path);

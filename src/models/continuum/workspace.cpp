@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
 constexpr double passages_that_last = 20;  // of the fastest wave over a spacing: jitter is quicker, flow far slower
-constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
 

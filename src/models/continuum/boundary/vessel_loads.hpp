@@ -56,7 +56,8 @@ struct LoadOfFields {
   Vector3 received;  ///< N s
 };
 
-constexpr double size_of_load_field = 2;  ///< in spacings
+constexpr double size_of_load_field = 2;   ///< in spacings
+constexpr double edge_of_drawn_field = 3;  ///< the longest of its triangles in snapshots, in spacings
 
 /// The fields of a vessel's walls.
 SurfaceFields load_fields(const Layout& layout);

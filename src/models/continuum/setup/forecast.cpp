@@ -52,11 +52,18 @@ SettlingTime settling_time(const Setup& setup) {
 /// All triangles of the vessel.
 struct Triangles {
   double count = 0, area = 0;  ///< m^2
+  double drawn = 0;            ///< that snapshots of the walls have: parts of them in fields
 };
 Triangles triangles_of_vessel(const Parameters& p) {
   Triangles all;
+  const double edge = edge_of_drawn_field * p.bed.spacing;
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (const Triangle& t : triangles_of(p, n)) ++all.count, all.area += norm(t.area());
+    for (const Triangle& t : triangles_of(p, n)) {
+      const auto& [a, b, c] = t.corner;
+      const double area = norm(t.area()), longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+      ++all.count, all.area += area;
+      all.drawn += std::max(1 + longest / edge, 2 * area / (edge * edge));
+    }
   return all;
 }
 
@@ -88,6 +95,7 @@ Forecast forecast(const Setup& setup, double end) {
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .wall_points = points_on_square(p.levels) * squares,
           .triangles = triangles.count,
+          .drawn_triangles = triangles.drawn,
           .load_fields = squares / (size_of_load_field * size_of_load_field),
           .settling_steps = std::ceil(settling.min / step),
           .max_settling_steps = std::ceil(settling.max / step),

@@ -18,6 +18,7 @@ struct Forecast {
   double cells = 0;               ///< of the air
   double wall_points = 0;         ///< of the walls of a vessel, of all sets together
   double triangles = 0;           ///< of these walls
+  double drawn_triangles = 0;     ///< of a snapshot of the walls, about
   double load_fields = 0;         ///< of these walls: load_fields(Layout)
   double settling_steps = 0;      ///< until the gate opens; at least so many
   double max_settling_steps = 0;  ///< the same, unless the bed settles without damping: when it rests is not known then
