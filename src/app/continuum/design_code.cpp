@@ -181,7 +181,7 @@ CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top,
   if (piece && !is_of(band, *piece)) return {};
   if (piece && piece->is_hopper()) return loads_on_hopper(shape, *piece, top, height);
   if (!piece && !(band.sine > 1 - 1e-3)) return {};
-  const Vector3 place = place_of(shape, band, height);
+  const Vector3 place = place_of(shape, band.patch, height);
   if (piece && shape.upright_at(place) != piece) return {};
   const auto silo = silo_of_code(shape, top, {place.x, place.y, height});
   if (!silo) return {};

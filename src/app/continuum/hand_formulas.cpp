@@ -171,12 +171,12 @@ bool is_of(const BandOfWall& band, const SiloPiece& piece) {
   return std::abs(band.sine - std::sin(std::atan(piece.tangent))) < slack;
 }
 
-Vector3 place_of(const SiloShape& shape, const BandOfWall& band, double height) {
-  const SiloPiece* const piece = shape.of_part(band.patch, height);
+Vector3 place_of(const SiloShape& shape, std::size_t part, double height) {
+  const SiloPiece* const piece = shape.of_part(part, height);
   if (piece && !piece->is_hopper())
     return {piece->axis.x, piece->axis.y, std::clamp(height, piece->bottom, std::nextafter(piece->top, piece->bottom))};
   const continuum::Parameters& p = shape.layout.given;
-  const VesselPart& v = p.vessel[band.patch];
+  const VesselPart& v = p.vessel[part];
   if (v.shape != continuum::VesselShape::plate) {
     const Vector3 axis = continuum::on_axis(p, v);
     return {axis.x, axis.y, height};
@@ -191,7 +191,7 @@ PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, 
   const SiloPiece* const piece = shape.of_part(band.patch, height);
   if (piece && !is_of(band, *piece)) return {};
   if (piece && piece->is_hopper()) return pressure_of_hopper(shape, *piece, ratio, top, height);
-  const Vector3 place = place_of(shape, band, height);
+  const Vector3 place = place_of(shape, band.patch, height);
   if (piece && shape.upright_at(place) != piece) return {};
   const double vertical = janssen_at(shape, ratio, top, place);
   if (piece) return {ratio * vertical, ratio * vertical, HopperRun::none};

@@ -41,8 +41,8 @@ double half_angle_of_cone(const continuum::Layout& layout);
 
 /// Whether a band is as steep as a piece: one of a file that spans two walls is of neither.
 bool is_of(const BandOfWall& band, const SiloPiece& piece);
-/// At a height, the axis of the walls that a band belongs to, or the middle of its part.
-Vector3 place_of(const SiloShape& shape, const BandOfWall& band, double height);
+/// At a height, the axis of the walls that a part of the vessel belongs to, or its own middle.
+Vector3 place_of(const SiloShape& shape, std::size_t part, double height);
 
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {

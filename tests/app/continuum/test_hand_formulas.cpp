@@ -208,7 +208,7 @@ TEST(PressureByHand, OfRingsOfOtherFrictionCarriesTheStressOfThoseAbove) {
   p.vessel[0].top = p.vessel.back().bottom = 0.12;
   p.vessel.back().name = "upper", p.vessel.back().friction = 0.1;
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
-  const auto length = [](double friction) { return 0.06 / (4 * friction * ratio); };
+  const auto length = [](double mu) { return 0.06 / (4 * mu * ratio); };
   const double above = granular::janssen_stress(weight, length(0.1), top - 0.12);
   EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[0], ratio, top, 0.1).at_rest,
               ratio * granular::janssen_stress(weight, length(0.3), 0.02, above), 1e-9);
