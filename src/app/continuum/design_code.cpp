@@ -18,8 +18,6 @@ namespace talus::app {
 
 namespace {
 
-using continuum::VesselPart;
-using continuum::VesselShape;
 using granular::en1991::Limit;
 using granular::en1991::Load;
 using granular::en1991::Values;
