@@ -197,7 +197,7 @@ void check_wedge(const Parameters& p, std::vector<Problem>& problems) {
     problems.push_back(
         {.key = "wedge.height",
          .what = fmt::format("the walls would reach {:.4g} mm, past the top", (p.wedge.height + rise) / millimetre),
-         .allowed = "walls that end within the box"});
+         .allowed = "walls that end within the box: a larger half angle, or a higher box (of talus new: --fill)"});
   if (p.plate.height)
     problems.push_back({.key = "plate.height", .what = "a plate and a wedge together", .allowed = "one of them"});
 }
