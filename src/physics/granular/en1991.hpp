@@ -34,8 +34,8 @@ struct Values {
 };
 
 /// The values that make a load largest (table 3.1), or, for its lower limit, the opposite ones: a mean times or over
-/// its factor; K at most 1, as in a liquid, and no wall rougher than the grains, mu at most tan phi_i on the same side of its mean. \param friction
-/// mean of the wall
+/// its factor; K at most 1, as in a liquid, and no wall rougher than the grains, mu at most tan phi_i on the same side
+/// of its mean. \param friction mean of the wall
 Values values_for(const Solid& solid, double friction, Load load, Limit limit);
 
 /// The part of a silo with upright walls.
