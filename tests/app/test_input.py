@@ -234,7 +234,7 @@ class BadCase(InputTest):
                              (r"--set integration\.pair_precision=single", "pairs"),
                              (r'--set "bed\.spacing=2\.5 mm"', "particles across the outlet")):
             self.assertRegex(options, change + rf"\n      \d+ \S+.*: .*{text}")
-        # Empty long before the half of its time; a run that ends before costs half as much.
+        # That one is empty long before the half of its time; half of a run that ends before takes less time.
         early = self.talus("check", "silo.toml", "--threads", 1, "--set", "bed.spacing=0.7 mm", "--set", "run.end=0.4 s",
                            "--set", "law.critical-state.bulk_modulus=200 MPa").stdout
         self.assertRegex(early, r'--set "run\.end=0\.2 s"\n      \d+ \S+.*: half of the simulated time')

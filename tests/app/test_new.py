@@ -86,6 +86,13 @@ class Cases(ProgramTest):
         case = tomllib.loads((self.folder / "new.toml").read_text())
         self.assertEqual((case["particles"]["count"], case["slope"]["angle"]), (300, "30 deg"))
 
+    def test_rows_of_the_series_are_no_farther_apart_than_peaks_are_averaged_over(self):
+        for outlet, width, fill in (("30 mm", "65 mm", "80 mm"), ("0.5 m", "4 m", "8 m")):
+            self.new("silo", "--outlet", outlet, "--width", width, "--fill", fill)
+            series = tomllib.loads((self.folder / "new.toml").read_text())["output"]["series"]
+            metres = float(outlet.split()[0]) * (1e-3 if outlet.endswith("mm") else 1)
+            self.assertLessEqual(float(series.split()[0]), 1.01e3 * 0.15 * (metres / 9.81) ** 0.5)
+
     def test_small_and_large_answers_are_a_case_or_are_refused(self):
         """Each number alone, a thousand times smaller and larger, and two of them together."""
         ends = {0: 0, 2: 0}

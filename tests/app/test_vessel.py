@@ -181,6 +181,9 @@ gate = true
         summary = json.loads((self.folder / "run/summary.json").read_text())
         flow = next(result["value"] for result in summary["key_results"] if result["title"] == "Flow")
         self.assertTrue(flow.startswith("was shut after 30 ms: "), flow)
+        (self.folder / "case.toml").write_text(CASE.replace("gate = true", 'gate = true\nopens_after = "5 s"'))
+        said = self.talus("check", "case.toml", "--set", 'run.end="70 ms"').stdout
+        self.assertIn("! opening of the first gate = 5 s: none opens before run.end, 0.07 s", " ".join(said.split()))
         for keys, text in (('opens_after = "40 ms"\ncloses_after = "30 ms"',
                             "vessel.2.closes_after: 0.03 s is not after opens_after; allowed: above 0.04 s"),
                            ('repeats_every = "30 ms"', "vessel.2.repeats_every: given, but the gate does not close"),

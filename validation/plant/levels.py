@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a bed at rest, a column, a slit with and without air, pressure pulses and a silo with particles of two sizes and of one, and compares them.
+"""Runs a bed at rest, a column, a slit, also in air, pressure pulses and a silo with particles of two sizes and of one, and compares
+them.
 
     validation/plant/levels.py [--out results/plant-levels] [--threads N] [--markdown FILE] [--picture FILE]
 
@@ -19,8 +20,9 @@ import talus  # noqa: E402
 REFERENCE = study.rows_of(HERE, "levels-")
 AIR = {"grains.diameter": "0.2 mm", "air.enabled": True, "air.cell": "7.5 mm", "air.drag": "ergun-wen-yu", "air.floor": "open",
        "air.top": "wall", "run.end": "0.45 s"}
-CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}), "slit": ("levels-slit.toml", {"removal.below": "10 mm"}),
-         "air": ("levels-slit.toml", AIR), "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
+CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}),
+         "slit": ("levels-slit.toml", {"removal.below": "10 mm"}), "air": ("levels-slit.toml", AIR),
+         "finer": ("levels-wave.toml", {}), "coarser": ("levels-wave.toml", {}),
          "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
 LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
                   "levels.high": ["112 mm", "64 mm", "100 mm"]},

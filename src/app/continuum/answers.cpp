@@ -304,7 +304,7 @@ std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& qu
                           internal_friction_by_hand(shape.layout.given) * 180 / std::numbers::pi);
     return text;
   }
-  const SiloPiece* const wall = piece ? piece : shape.upright_at(place_of(shape, part, height));
+  const SiloPiece* const wall = piece ? piece : shape.upright_at(middle_of(shape, part, height));
   const double measured = value_of(quantities, "wall_pressure_ratio");
   const bool is_measured = std::isfinite(measured);
   return fmt::format("Janssen, K {:.3g} {}, μ {:.3g}", is_measured ? measured : pressure_ratio_at_rest(shape.layout),

@@ -99,7 +99,7 @@ Forecast forecast(const Setup& setup, const run::RunParameters& run) {
   forecast.phases.push_back(
       {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
   const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
-  const double whole = run.end * (1 + f.settling_steps / f.flow_steps);
+  const double whole = run.end + f.settling_steps * continuum::time_step_of(setup);
   forecast.disk_bytes =
       (whole / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 150 * f.drawn_triangles + 20e3) +
       (run.report ? 5e6 : 0) + 2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;

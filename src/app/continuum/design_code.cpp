@@ -62,7 +62,7 @@ Values CodeSilo::values(Load load, Limit limit) const {
 }
 
 double CodeSilo::weight(Limit limit) const {
-  return limit == Limit::upper ? std::max(own_weight, solid.max_weight) : own_weight;
+  return code::weight_for(solid, own_weight, limit);
 }
 
 code::Stresses CodeSilo::filling(Load load, Limit limit, double height) const {
@@ -151,7 +151,7 @@ CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, doubl
   const code::Solid solid = solid_of(p);
   const double ratio = ratio_of_hopper(solid);
   const auto stresses = [&](Load load, Limit limit) {
-    const double weight = limit == Limit::upper ? std::max(own_weight, solid.max_weight) : own_weight;
+    const double weight = code::weight_for(solid, own_weight, limit);
     Values values = code::values_for(solid, mean, load, limit);
     values.ratio = ratio;
     const granular::ConeBearing bearing =
@@ -175,15 +175,12 @@ CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, doubl
 
 CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top, double height) {
   if (!(height < top)) return {};
-  const SiloPiece* const piece = shape.of_part(band.patch, height);
-  if (piece && !is_of(band, *piece)) return {};
-  if (piece && piece->is_hopper()) return loads_on_hopper(shape, *piece, top, height);
-  if (!piece && !(band.sine > 1 - 1e-3)) return {};
-  const Vector3 place = place_of(shape, band.patch, height);
-  if (piece && shape.upright_at(place) != piece) return {};
-  const auto silo = silo_of_code(shape, top, {place.x, place.y, height});
+  const auto on = wall_of(shape, band, height);
+  if (!on) return {};
+  if (on->piece && on->piece->is_hopper()) return loads_on_hopper(shape, *on->piece, top, height);
+  const auto silo = silo_of_code(shape, top, on->place);
   if (!silo) return {};
-  return piece ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
+  return on->piece ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
 }
 
 CodePatch patch_of_code(const CodeSilo& s) {
@@ -201,14 +198,13 @@ CodePatch patch_of_code(const CodeSilo& s) {
 namespace {
 
 /// Each of the upright walls that the bed reaches.
-/// \param is_bare parts that no grain has touched
-std::vector<CodeSilo> silos_of(const SiloShape& shape, double top, const std::set<std::size_t>& is_bare) {
+std::vector<CodeSilo> silos_of(const SiloShape& shape, double top) {
   std::vector<CodeSilo> silos;
   for (const SiloPiece& piece : shape.pieces) {
     if (piece.is_hopper() || !(piece.bottom < top)) continue;
     const double height = std::max(piece.bottom, shape.bottom_of(piece, top));
     const auto silo = silo_of_code(shape, top, {piece.axis.x, piece.axis.y, height});
-    if (silo && silo->part == piece.parts.front() && is_bare.count(silo->part) == 0) silos.push_back(*silo);
+    if (silo && silo->part == piece.parts.front()) silos.push_back(*silo);
   }
   return silos;
 }
@@ -216,9 +212,10 @@ std::vector<CodeSilo> silos_of(const SiloShape& shape, double top, const std::se
 }  // namespace
 
 void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top,
-                       const std::set<std::size_t>& is_bare) {
+                       const std::set<std::size_t>& bare) {
   std::vector<std::vector<double>> rows;
-  for (const CodeSilo& s : silos_of(shape, top, is_bare)) {
+  for (const CodeSilo& s : silos_of(shape, top)) {
+    if (bare.contains(s.part)) continue;
     const CodePatch patch = patch_of_code(s);
     const code::DischargeFactors factors = code::discharge_factors(s.silo);
     const Values pressure = s.values(Load::wall_pressure, Limit::upper),
@@ -322,7 +319,7 @@ Answer answer_of_hopper(const SiloShape& shape, const SiloPiece& hopper) {
                               internal / degree, side_of(internal, solid.internal))
                 : "; discharge as filling";
   if (constexpr double slack = 0.05; steep && std::abs(hopper.shape() - code::conical) > slack)
-    text += ", n by the balance of a slice: the code's own is less than that by 2 - S and gives more";
+    text += ", n by the balance of a slice; the code's n is smaller by 2 - S and gives larger pressures";
   return {fmt::format("EN 1991-4 takes, {}", shape.name_of(hopper)),
           fmt::format("{}: half angle {:.3g}°, K {:.3g} (lower)", steep ? "steep" : "shallow", angle / degree, ratio),
           text};
@@ -339,10 +336,9 @@ std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesyste
   const double top = table.column("top").front();
   for (const SiloPiece& piece : shape.pieces)
     if (piece.is_hopper() && piece.bottom < top) answers.push_back(answer_of_hopper(shape, piece));
-  std::set<std::size_t> is_bare;  // those without a row
-  for (const SiloPiece& piece : shape.pieces) is_bare.insert(piece.parts.begin(), piece.parts.end());
-  for (const double part : table.column("patch")) is_bare.erase(static_cast<std::size_t>(part) - 1);
-  for (const CodeSilo& s : silos_of(shape, top, is_bare)) {
+  const auto written = table.column("patch");
+  for (const CodeSilo& s : silos_of(shape, top)) {
+    if (std::find(written.begin(), written.end(), static_cast<double>(s.part + 1)) == written.end()) continue;
     const std::string solid = s.is_listed
                                   ? std::string(choice_name(*shape.layout.given.grains.material)) + ", Table E.1"
                                   : "without values of Table E.1: φ_i of the law in a shear tester";

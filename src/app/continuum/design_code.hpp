@@ -30,7 +30,6 @@ struct CodeSilo {
 
   /// A round silo whose outlet is so far from its axis that the flow channel counts.
   bool has_channel() const;
-  /// gamma, N/m^3: for upper limits at least gamma_u of the code's table.
   double weight(granular::en1991::Limit limit) const;
   granular::en1991::Values values(granular::en1991::Load load, granular::en1991::Limit limit) const;
   /// After filling, of the values for a load. \param height m
@@ -61,9 +60,9 @@ struct CodePatch {
 CodePatch patch_of_code(const CodeSilo& silo);
 
 /// Writes analysis/en1991.csv: of each upright wall that the bed reaches what the code takes, and its patch load;
-/// nothing without such walls. \param is_bare parts that no grain has touched \throws FileError
+/// nothing without such walls. \param bare parts that no grain has touched \throws FileError
 void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top,
-                       const std::set<std::size_t>& is_bare = {});
+                       const std::set<std::size_t>& bare = {});
 
 /// The same as key results: class, values and limits, patch load, flow channel. \param run_folder with
 /// analysis/en1991.csv, if there is one \throws FileError

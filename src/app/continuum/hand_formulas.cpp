@@ -166,12 +166,7 @@ double half_angle_of_cone(const continuum::Layout& layout) {
   return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
 }
 
-bool is_of(const BandOfWall& band, const SiloPiece& piece) {
-  constexpr double slack = 0.05;
-  return std::abs(band.sine - std::sin(std::atan(piece.tangent))) < slack;
-}
-
-Vector3 place_of(const SiloShape& shape, std::size_t part, double height) {
+Vector3 middle_of(const SiloShape& shape, std::size_t part, double height) {
   const SiloPiece* const piece = shape.of_part(part, height);
   if (piece && !piece->is_hopper())
     return {piece->axis.x, piece->axis.y, std::clamp(height, piece->bottom, std::nextafter(piece->top, piece->bottom))};
@@ -185,17 +180,23 @@ Vector3 place_of(const SiloShape& shape, std::size_t part, double height) {
           v.corner[1] + 0.5 * (v.first_edge[1] + v.second_edge[1]), height};
 }
 
+std::optional<WallOfBand> wall_of(const SiloShape& shape, const BandOfWall& band, double height) {
+  constexpr double slack = 0.05, level = 1 - 1e-3;
+  const SiloPiece* const piece = shape.of_part(band.patch, height);
+  const bool fits = piece ? std::abs(band.sine - std::sin(std::atan(piece->tangent))) < slack : band.sine > level;
+  const WallOfBand found{piece, middle_of(shape, band.patch, height)};
+  if (!fits || (piece && !piece->is_hopper() && shape.upright_at(found.place) != piece)) return std::nullopt;
+  return found;
+}
+
 PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, double ratio, double top,
                                 double height) {
-  if (!(height < top)) return {};
-  const SiloPiece* const piece = shape.of_part(band.patch, height);
-  if (piece && !is_of(band, *piece)) return {};
-  if (piece && piece->is_hopper()) return pressure_of_hopper(shape, *piece, ratio, top, height);
-  const Vector3 place = place_of(shape, band.patch, height);
-  if (piece && shape.upright_at(place) != piece) return {};
-  const double vertical = janssen_at(shape, ratio, top, place);
-  if (piece) return {ratio * vertical, ratio * vertical, HopperRun::none};
-  return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none, HopperRun::none} : PressureByHand{};
+  const auto on = height < top ? wall_of(shape, band, height) : std::nullopt;
+  if (!on) return {};
+  if (on->piece && on->piece->is_hopper()) return pressure_of_hopper(shape, *on->piece, ratio, top, height);
+  const double vertical = janssen_at(shape, ratio, top, on->place);
+  if (on->piece) return {ratio * vertical, ratio * vertical, HopperRun::none};
+  return {vertical, HopperRun::none, HopperRun::none};
 }
 
 }  // namespace talus::app

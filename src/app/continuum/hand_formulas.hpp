@@ -39,10 +39,17 @@ std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum:
 /// The half angle that it has, rad; nan without such a cone.
 double half_angle_of_cone(const continuum::Layout& layout);
 
-/// Whether a band is as steep as a piece: one of a file that spans two walls is of neither.
-bool is_of(const BandOfWall& band, const SiloPiece& piece);
-/// At a height, the axis of the walls that a part of the vessel belongs to, or its own middle.
-Vector3 place_of(const SiloShape& shape, std::size_t part, double height);
+/// At a height, the axis of the walls that a part of the vessel belongs to, or its own middle, m.
+Vector3 middle_of(const SiloShape& shape, std::size_t part, double height);
+
+/// What formulas take a band for.
+struct WallOfBand {
+  const SiloPiece* piece = nullptr;  ///< null: a level floor
+  Vector3 place;                     ///< middle_of() its part, m
+};
+/// Nothing where no formula is for it: a band as steep as no piece, such as one of a file that spans two walls, and
+/// upright walls that are not those about a bed (SiloShape::upright_at). \param height m
+std::optional<WallOfBand> wall_of(const SiloShape& shape, const BandOfWall& band, double height);
 
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {

@@ -46,14 +46,16 @@ class SiloShape {
 
   /// The piece that a part of the vessel belongs to at a height, or at most a spacing from it; null: none.
   const SiloPiece* of_part(std::size_t part, double height) const;
-  /// The upright walls about a place that hold its height, or stand next above it. Null without, and where a bed
-  /// stands about others within them. \param place of its x and y nothing counts if the walls stand on one axis
+  /// The upright walls that enclose a place, or stand next above it; where none enclose its x and y, the lowest that
+  /// reach its height. Of walls within walls the inner ones if an outlet is within them. Null without, and where the
+  /// bed stands between both. \param place m
   const SiloPiece* upright_at(const Vector3& place) const;
-  /// Where the walls of a silo end: those that stand under these too count, a level floor and a hopper within.
+  /// Where the walls of a silo end: with those that stand under these, at a hopper of their width or a level floor,
+  /// which closes more than half of the section, within them. \param top of the bed, m \returns m
   double bottom_of(const SiloPiece& wall, double top) const;
-  /// Down from the bed's top to a height, the walls on one axis with these: each holds what it is the next above.
+  /// Walls of one silo, ring above ring, from the bed's top down to a height.
   struct Ring {
-    double friction = 0, height = 0;  ///< height: of the bed beside it, m
+    double friction = 0, height = 0;  ///< height: of the bed that the ring holds, m
   };
   std::vector<Ring> rings_above(const SiloPiece& wall, double height, double top) const;
   /// The names of a piece's parts: "wall_left, wall_right".

@@ -105,11 +105,11 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
                {"en_pressure_in_channel", "Pa"},
                {"en_pressure_beside_channel", "Pa"}},
               rows);
-  std::set<std::size_t> is_bare;
-  for (const BandOfWall& band : bands) is_bare.insert(band.patch);
+  std::set<std::size_t> bare;
+  for (const BandOfWall& band : bands) bare.insert(band.patch);
   for (const BandOfWall& band : bands)
-    if (!band.is_bare) is_bare.erase(band.patch);
-  write_design_code(run_folder, shape, top, is_bare);
+    if (!band.is_bare) bare.erase(band.patch);
+  write_design_code(run_folder, shape, top, bare);
   if (curves.empty()) return;
   std::vector<std::vector<double>> against_time;
   for (std::size_t n = 0; n < curves.front().time.size(); ++n) {

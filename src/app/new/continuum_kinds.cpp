@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "app/new/kind.hpp"
@@ -169,11 +170,13 @@ std::vector<Problem> check_outlet(const Answers& a) {
   return problems;
 }
 
-std::string ending(double end, double frames, double rows) {
+/// \param outlet its width, m: rows of the series are at most T/2 apart (analysis.averaging_time); infinite without one
+std::string ending(double end, double frames, double rows, double outlet = std::numeric_limits<double>::infinity()) {
+  const double apart = std::min(end / rows, 0.15 * std::sqrt(outlet / gravity));
   return fmt::format(
       "# Counted from the opening of the gate.\n[run]\nend = {}\n\n"
       "[output]\nsnapshots = {}\nseries = {}\n",
-      written(end, "s"), written(end / frames, "ms"), written(end / rows, "ms"));
+      written(end, "s"), written(end / frames, "ms"), written(apart, "ms"));
 }
 
 // ---------------------------------------------------------------------------------------------- hopper
@@ -253,7 +256,7 @@ std::string write_hopper(const Answers& a) {
         "# The {}hopper is open above. Boundaries of the air: docs/guidance.md.\n[air]\nenabled = true\n"
         "drag = \"ergun-wen-yu\"\n\n",
         removal ? "" : "bin is closed, the ");
-  return text + ending(end, 50, 5000);
+  return text + ending(end, 50, 5000, a["outlet"]);
 }
 
 // ------------------------------------------------------------------------------------------------ silo
@@ -333,7 +336,7 @@ std::string write_silo(const Answers& a) {
       "# {:.3g} particles across the outlet; fewer than 12 show in the discharge (talus check). A mass may be given\n"
       "# instead of the height.\n[bed]\nspacing = {}\nheight = {}\n\n",
       outlet / spacing, written(spacing, "mm"), written(fill, "mm"));
-  return text + ending(rounded_up(1.5 * volume / rate), 25, 1000);
+  return text + ending(rounded_up(1.5 * volume / rate), 25, 1000, a["outlet"]);
 }
 
 // ---------------------------------------------------------------------------------------------- column

@@ -325,9 +325,8 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
                  half = 0.5 * setup_->scales.averaging_time;
     lines.push_back(
         {"time between rows of the series over T/2", fmt::format("{:.3g}", apart / half),
-         fmt::format("peaks and rates are averages over T/2 = {:.3g} s and T, or over what is between two "
-                     "rows, if that is longer; what passes after the last row does not count: take a shorter "
-                     "output.series",
+         fmt::format("peaks are averages over T/2 = {:.3g} s, rates over T, or over the time between rows, if that is "
+                     "longer; what passes after the last row does not count: take a shorter output.series",
                      half),
          apart > 2 * half});
   }

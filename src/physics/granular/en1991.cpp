@@ -62,6 +62,10 @@ Solid unknown_solid(double internal) {
           .patch = 1};
 }
 
+double weight_for(const Solid& solid, double weight, Limit limit) {
+  return limit == Limit::upper ? std::max(weight, solid.max_weight) : weight;
+}
+
 Values values_for(const Solid& solid, double friction, Load load, Limit limit) {
   const int side = limit == Limit::upper ? 1 : limit == Limit::lower ? -1 : 0;
   const Signs signs = signs_of(load);

@@ -28,14 +28,17 @@ Solid unknown_solid(double internal);
 enum class Load { wall_pressure, wall_shear, bottom, hopper_filling, hopper_discharge };
 enum class Limit { lower, mean, upper };
 
+/// gamma, N/m^3: that of the bed, for upper limits at least gamma_u (table E.1). \param weight of the bed
+double weight_for(const Solid& solid, double weight, Limit limit);
+
 /// Wall friction mu, K and phi_i, rad.
 struct Values {
   double friction = 0, ratio = 0, internal = 0;
 };
 
 /// The values that make a load largest (table 3.1), or, for its lower limit, the opposite ones: a mean times or over
-/// its factor; K at most 1, as in a liquid, and no wall rougher than the grains, mu at most tan phi_i on the same side
-/// of its mean. \param friction mean of the wall
+/// its factor; K at most 1, as in a liquid, and no wall rougher than the grains (note to table 3.1): mu at most tan
+/// phi_i on the same side of its mean. \param friction mean of the wall
 Values values_for(const Solid& solid, double friction, Load load, Limit limit);
 
 /// The part of a silo with upright walls.
@@ -80,7 +83,8 @@ DischargeFactors discharge_factors(const Silo& silo);
 /// eccentricity e_f of the top pile, e_o of the outlet, m
 double patch_of_filling(const Silo& silo, double solid_factor, double eccentricity);
 double patch_of_discharge(const Silo& silo, double solid_factor, double eccentricity);
-/// The share of it by which the pressure on all sides of a silo that is not round rises over that extent.
+/// p_nc/p_p: in place of a patch, the pressure on all sides of a silo that is not round rises by this share of the
+/// patch load over that extent (5.17, 5.37).
 inline constexpr double patch_of_straight_walls = 0.36;
 /// Its extent along the wall, s = pi d_c/16, m (5.2.1.2).
 double patch_extent(const Silo& silo);

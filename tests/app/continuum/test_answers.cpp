@@ -95,6 +95,8 @@ TEST_F(Answers, OfASiloThatWasNotOpenForLongClaimNoArch) {
   };
   EXPECT_EQ(flow(1, 0.9), "was shut until the end of the run: 12.3 kg (100 %) left");
   EXPECT_EQ(flow(1, 1.1), "has not started: 12.3 kg (100 %) left");
+  quantities.push_back({"discharge_rate_max", "kg/s", 0.1});
+  for (const Answer& answer : all()) EXPECT_THAT(answer.question, testing::Not(testing::StartsWith("Peak discharge")));
   EXPECT_EQ(flow(1, 2), "arched at once, over the outlet: 12.3 kg (100 %) left");
 }
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/level_cases.hpp"
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/vessel_parts.hpp"
 
@@ -191,6 +192,24 @@ TEST(Inlets, ALayerWaitsUntilThereIsRoom) {
   EXPECT_GT(s.population.fed, 0u);
   EXPECT_LT(s.population.fed, 60u) << "the heap reaches the window";
   EXPECT_EQ(s.position.size(), bed + s.population.fed);
+}
+
+TEST(Inlets, ALayerFindsNoRoomBetweenCoarserParticles) {
+  Parameters p = bed_of_levels(1);
+  p.levels.high = {spacing, spacing, spacing};
+  Inlet inlet;
+  inlet.centre = {0.75 * p.box.width, 0.5 * p.box.depth, 9.5 * spacing};
+  inlet.width = 4 * spacing, inlet.depth = 4 * spacing;
+  inlet.velocity = {0, 0, -1};
+  inlet.rate = 16 * lattice_of(p).mass / 0.02;
+  inlet.to = 1;
+  p.inlets = {inlet};
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.time < 0.05) model.advance(team);
+  EXPECT_EQ(s.population.fed, 0u);
 }
 
 TEST(Inlets, TheBitsDependNeitherOnThreadsNorOnResuming) {

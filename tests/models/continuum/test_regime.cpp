@@ -204,6 +204,20 @@ TEST(RegimeOfRun, WarnsOfFlowFasterThanTheRangeOfItsLaw) {
   EXPECT_FALSE(line_of(model, {}, quantity)->warning);
 }
 
+TEST(RegimeOfRun, WarnsOfRowsOfTheSeriesFartherApartThanT) {
+  const Parameters p = small_hopper();
+  const double t = setup_of(p).scales.averaging_time;
+  ThreadTeam team(1);
+  const auto line = [&](double apart) {
+    RunRecord record{};
+    record.series = {.names = {"time"}, .units = {"s"}, .columns = {{0, apart, 2 * apart}}};
+    return *line_of(started(p, team), record, "time between rows of the series over T/2");
+  };
+  EXPECT_EQ(line(0.5 * t).value, "1");
+  EXPECT_FALSE(line(0.9 * t).warning);
+  EXPECT_TRUE(line(1.1 * t).warning);
+}
+
 TEST(RegimeOfRun, TheLatticeOfTheStartIsNoLargestPacking) {
   Parameters p = small_hopper();
   ThreadTeam team(1);

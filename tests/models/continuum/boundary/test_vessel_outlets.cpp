@@ -50,6 +50,19 @@ TEST(VesselOutlets, TheNarrowerSideCountsWhicheverWayTheyAreTurned) {
   EXPECT_NEAR(outlets_of_vessel(p).front().length, 20 * spacing, 1e-12);
 }
 
+TEST(VesselOutlets, AGateWiderThanTheHoleAboveItIsTold) {
+  const std::string quantity = "share of the outlet with a wall just above";
+  const auto told = [&](double hole) {
+    Parameters p = slot(20, 60);
+    const double width = 30 - hole / 2;
+    p.vessel.push_back(plate("left", {0, 0, 30.5}, {width, 0, 0}, {0, 60, 0}));
+    p.vessel.push_back(plate("right", {60 - width, 0, 30.5}, {width, 0, 0}, {0, 60, 0}));
+    return value_of(p, quantity);
+  };
+  EXPECT_EQ(told(5), "! 0.75");
+  EXPECT_EQ(told(20), "");
+}
+
 TEST(VesselOutlets, BetweenMirrorsASlotHasNoEnds) {
   Parameters p = slot(20, 8);
   p.box.depth = 6 * spacing;
