@@ -267,6 +267,8 @@ void print_forecast(const Subject& s) {
     std::string note;
     if (phase.present < 1)
       note = fmt::format(", mean fill {:.0f} %", 100 * phase.present);
+    else if (phase.present > 1)
+      note = fmt::format(", in the mean {:.2g} times the particles of the start", phase.present);
     else if (phase.evaluations != phase.steps)
       note = fmt::format(", {} evaluations", count_text(phase.evaluations));
     print("  {:{}}  about {} steps of {:.3g} ms{}: {}\n", phase.name, s.key, count_text(phase.steps), 1e3 * each, note,

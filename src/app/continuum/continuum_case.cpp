@@ -19,6 +19,7 @@
 #include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/hopper_observers.hpp"
 #include "app/continuum/ranks_forecast.hpp"
+#include "app/continuum/run_forecast.hpp"
 #include "app/continuum/shorter_runs.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "app/continuum/wall_loads.hpp"
@@ -77,71 +78,6 @@ std::vector<NamedValue> groups(const Setup& setup) {
       groups.push_back({"slit_over_grain_" + outlet.name, "1", outlet.narrow / p.grains.diameter});
     }
   return groups;
-}
-
-/// Share of the particles of the start that are present in the mean until `end`, s: those that leave a vessel at the
-/// analytical rate are taken away below it. 1 where none are, or where others come in.
-double mean_share_present(const Setup& setup, double end) {
-  const Parameters& p = setup.given;
-  const double rate = discharge_by_hand(setup);
-  if (!(rate > 0) || !p.inlets.empty() || !(p.removal.below || p.box.floor == FaceKind::open)) return 1;
-  const double emptied = setup.lattice.mass * continuum::bed_count(setup) * setup.copies / rate;
-  return continuum::mean_share_while_emptying(setup, end / emptied);
-}
-
-Forecast forecast(const Setup& setup, const run::RunParameters& run) {
-  const continuum::Forecast f = continuum::forecast(setup, run.end);
-  Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
-  if (f.settling_steps > 0)
-    forecast.phases.push_back(
-        {"settling", f.settling_steps, f.settling_steps, f.max_settling_steps / f.settling_steps});
-  const double present = mean_share_present(setup, run.end);
-  forecast.phases.push_back(
-      {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
-  const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
-  const double whole = run.end + f.settling_steps * continuum::time_step_of(setup);
-  forecast.disk_bytes =
-      (whole / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 150 * f.drawn_triangles + 20e3) +
-      (run.report ? 5e6 : 0) + 2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;
-  return forecast;
-}
-
-/// Of a step, by particle.
-double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& team) {
-  const Parameters& p = setup->given;
-  Continuum model(setup);
-  continuum::State& s = model.mutable_state();
-  // Walls cost more where the bed presses against them.
-  if (!p.vessel.empty())
-    for (std::size_t c = 0; c < 3; ++c)
-      std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
-                setup->density * p.gravity.acceleration * setup->depth);
-  model.begin(team);
-  const auto count = static_cast<double>(s.position.size());  // some may be taken away
-  const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
-  return seconds_of(team, duration, [&] { model.advance(team); }) / count;
-}
-
-/// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
-/// walls of its vessel by larger particles in it: with levels, as many particles of one size.
-double measure_step(const std::shared_ptr<const Setup>& given, double end, ThreadTeam& team) {
-  constexpr double most = 8000;
-  auto setup = given;
-  if (given->given.levels.count > 0) {
-    Parameters of_one_size = given->given;
-    of_one_size.levels = {};
-    setup = std::make_shared<const Setup>(given->with_same_bed(of_one_size));
-  }
-  const auto in_sample = [&] { return measure_particle(std::make_shared<Setup>(sample(*setup, most)), team); };
-  if (setup->has_no_bed()) return 0.5 * continuum::forecast(*setup, end).particles * in_sample();  // half comes in
-  const double count = continuum::bed_count(*setup);
-  const double share = continuum::share_of_particles(*given);
-  if (share * count <= most) return share * count * measure_particle(given, team);
-  const double inside = in_sample();
-  if (setup->given.vessel.empty()) return share * count * inside;
-  const auto coarse = std::make_shared<Setup>(continuum::coarser(*setup, most));
-  const double by_walls = std::max(0.0, measure_particle(coarse, team) - inside);
-  return share * count * (inside + by_walls * setup->given.bed.spacing / coarse->given.bed.spacing);
 }
 
 Problem too_large(const Setup& setup, double available) {
@@ -375,7 +311,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   };
   prepared.observers = {{.columns = {"position", "velocity", "density", "stress_zz", "strain", "mass_ratio"},
                          .observe = [setup](const Pieces& pieces) { return observe_hopper(pieces, *setup); }}};
-  prepared.forecast = forecast(*setup, read.run);
+  prepared.forecast = forecast_of_run(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
   prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };
   prepared.too_large = [setup](double available) { return too_large(*setup, available); };

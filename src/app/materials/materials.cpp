@@ -282,8 +282,12 @@ double depth_that_may_be_reached(const continuum::Layout& layout, double end) {
 
 double speed_of_fall(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
-  double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
-  low = std::max(low, p.removal.below.value_or(low));
+  const double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
+  return speed_of_fall(layout, std::max(low, p.removal.below.value_or(low)));
+}
+
+double speed_of_fall(const continuum::Layout& layout, double low) {
+  const continuum::Parameters& p = layout.given;
   const auto speed = [&](double from, double to, const std::array<double, 3>& v) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 2 * p.gravity.acceleration * std::max(0.0, from - to));
   };

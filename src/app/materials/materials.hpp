@@ -79,6 +79,8 @@ double bulk_modulus_for(const continuum::Layout& layout, double end);
 
 /// The largest speed of a free fall from where grains begin to the lowest position that they can reach, m/s.
 double speed_of_fall(const continuum::Layout& layout);
+/// The same down to another height. \param low m
+double speed_of_fall(const continuum::Layout& layout, double low);
 
 /// The shear modulus G over the bulk modulus B. Of a material that EN 1991-4 lists so that a bed which has settled
 /// without strain to the sides has K = 1 - sin phi_i: below yield K = (1 - 2G/3B)/(1 + 4G/3B). Of one whose K was

@@ -43,6 +43,8 @@ class Continuum {
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
+  /// The next step builds the neighbour lists, though they hold: for forecasts.
+  void drop_lists() { workspace_->drops_lists = true; }
 
   std::size_t particles() const { return workspace_->share.of_all(state_.position.size()); }
 

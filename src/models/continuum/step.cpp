@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/exact_sum.hpp"
 #include "models/continuum/boundary/contact.hpp"
@@ -255,7 +256,7 @@ void Step::end() const {
 void Step::lists() const {
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
-  if (!fed && lists_hold()) return;
+  if (!fed && lists_hold() && !std::exchange(w.drops_lists, false)) return;
   drop_halo(p, s, w);
   if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);

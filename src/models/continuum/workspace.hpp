@@ -39,6 +39,7 @@ struct Workspace {
   std::vector<LoadBand> load_bands;
   FieldMesh load_mesh;
   PairSums pairs;
+  bool drops_lists = false;           ///< at the next step, though they hold
   Rates rates;                        ///< of the state, between steps
   std::optional<GrainLimits> limits;  ///< of all particles as they are; none: not known yet
   std::unique_ptr<Atmosphere> air;    ///< none in a vacuum

@@ -151,23 +151,5 @@ TEST(Accuracy, OfACaseWithoutOutletLacksTheSpacing) {
   }
 }
 
-TEST(ForecastOfARun, CountsTheParticlesThatAreLeft) {
-  const PreparedCase prepared = prepare_case(silo());
-  const auto group = [&](std::string_view name) {
-    for (const NamedValue& value : prepared.groups)
-      if (value.name == name) return value.value;
-    return 0.0;
-  };
-  const Forecast::Phase& flow = prepared.forecast.phases.back();
-  const double emptied = group("mass") / group("discharge_by_hand");
-  ASSERT_LT(emptied, 1);
-  EXPECT_NEAR(flow.present, 0.5 * emptied, 1e-9) << "a line to nothing, then nothing until 1 s";
-  EXPECT_NEAR(flow.evaluations, flow.present * flow.steps, 1e-6 * flow.steps);
-  const PreparedCase shorter = prepare_case(with(silo(), {"run.end=0.1 s"}));
-  EXPECT_NEAR(shorter.forecast.phases.back().present, 1 - 0.05 / emptied, 1e-9);
-  const PreparedCase kept = prepare_case(with(silo(), {"box.floor=wall", "box.sector=30 deg"}));
-  EXPECT_LT(kept.forecast.phases.back().present, 1) << "what is taken away above the floor";
-}
-
 }  // namespace
 }  // namespace talus::app
