@@ -163,6 +163,11 @@ Plateau steady_discharge(const HopperRun& run) {
   return found.value * (found.to - found.from) >= steady_least * mass_at_end(run) ? found : Plateau{};
 }
 
+Plateau steady_throughput(const HopperRun& run) {
+  const Curve removed = run.curve("removed_mass");
+  return find_plateau(removed, run.setting.averaging_time, plateau_spread, removed.time.front(), run.end());
+}
+
 double value_at_window(Number number, const HopperRun& run, const Window& window) {
   const std::vector<double>& time = run.snapshots.time();
   if (time.empty()) return none;

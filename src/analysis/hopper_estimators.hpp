@@ -81,6 +81,10 @@ FlowEnd flow_end(const HopperRun& run);
 Plateau steady_discharge(const HopperRun& run);
 inline constexpr double steady_from = 0.1, steady_to = 0.7, steady_least = 0.05;
 
+/// Of what is taken away while it is steady, as behind a chute or a belt: the same from the start to the end of the
+/// run. \pre the series has removed_mass
+Plateau steady_throughput(const HopperRun& run);
+
 /// The number in the snapshot nearest the window's time, of two the earlier; nan if the run ended more than half an
 /// interval before.
 double value_at_window(Number number, const HopperRun& run, const Window& window);

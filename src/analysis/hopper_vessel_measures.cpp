@@ -43,6 +43,12 @@ bool has_upright_walls(const Run& run) {
 bool outlet(const Run& run) {
   return run.setting.shape.outlet.has_value();
 }
+/// As a chute or a belt does.
+bool passes_grains_on(const Run& run) {
+  if (!vessel(run) || outlet(run) || !run.series.has("removed_mass")) return false;
+  const auto removed = run.series.column("removed_mass");
+  return !removed.empty() && removed.back() > 0;
+}
 bool hand_formula(const Run& run) {
   return outlet(run) && run.setting.hand_discharge > 0;
 }
@@ -240,6 +246,12 @@ std::vector<Row> hopper_vessel_measures() {
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
           {[](const Run& r, const Window&) { return steady_discharge(r).value / r.setting.outlet_length; }},
           {vessel_with_slit}),
+      Row("throughput", "kg/s",
+          "of a chute or a belt, without an outlet: mean rate at which grains are taken away, over a stretch as of "
+          "discharge_steady",
+          {[](const Run& r, const Window&) { return steady_throughput(r).value; }}, {passes_grains_on}),
+      Row("throughput_error", "kg/s", "as discharge_steady_error",
+          {[](const Run& r, const Window&) { return steady_throughput(r).error; }}, {passes_grains_on}),
       Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
           {[](const Run& r, const Window&) {
             Curve left = discharged_share(r);

@@ -123,6 +123,20 @@ HopperRun flowing(double end, Passed&& passed) {
   return run;
 }
 
+TEST(HopperVessel, TheThroughputIsWhatIsTakenAwayWhileItIsSteady) {
+  HopperRun chute = flowing(1, [](double t) { return 2 * std::clamp(t - 0.2, 0.0, 0.5); });
+  chute.series.names[3] = "removed_mass";
+  const auto* row = find_row(hopper_measures(), "throughput");
+  ASSERT_NE(row, nullptr);
+  EXPECT_FALSE(row->in_summary.applies(chute)) << "an outlet has discharge_steady";
+  chute.setting.shape.outlet = std::nullopt;
+  EXPECT_TRUE(row->in_summary.applies(chute));
+  EXPECT_NEAR(value(chute, "throughput"), 2, 1e-6);
+  EXPECT_NEAR(value(chute, "throughput_error"), 0, 1e-6);
+  std::fill(chute.series.columns[3].begin(), chute.series.columns[3].end(), 0.0);
+  EXPECT_FALSE(row->in_summary.applies(chute)) << "nothing is taken away";
+}
+
 TEST(FlowEnd, AJamIsNoFlow) {
   // 0.2 % leaves within 10 ms, at 2 kg/s; then an arch stands.
   const HopperRun jam = flowing(2, [](double t) { return std::min(2 * t, 0.02); });

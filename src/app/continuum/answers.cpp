@@ -343,6 +343,12 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   if (constexpr double enough = 0.95; fed < enough * asked)
     answers.push_back(
         {"Fed", fmt::format("{} of {}: inlets had no room for more", mass_text(fed), mass_text(asked)), ""});
+  if (const double rate = value_of(quantities, "throughput"); rate > 0) {
+    double comes = 0;
+    for (const continuum::Inlet& inlet : p.inlets) comes += inlet.rate;
+    answers.push_back({"Throughput, steady", rate_text(rate, value_of(quantities, "throughput_error")),
+                       comes > 0 ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
+  }
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",
                        fmt::format("{:.1f} % of the weight, by a pressure difference of {}", 100 * lift,

@@ -82,6 +82,20 @@ TEST_F(Answers, SayWhatInletsCouldNotBringIn) {
   EXPECT_EQ(fed(0.4), "400 g of 1 kg: inlets had no room for more");
 }
 
+TEST_F(Answers, OfAChuteHaveItsThroughputBesideWhatComesIn) {
+  continuum::Parameters p = small_silo();
+  p.vessel.resize(1);
+  continuum::Inlet inlet;
+  inlet.centre = {0.05, 0.05, 0.15}, inlet.radius = 0.01, inlet.shape = continuum::InletShape::disc;
+  inlet.velocity = {0, 0, -1}, inlet.rate = 0.2;
+  p.inlets = {inlet};
+  quantities = {{"throughput", "kg/s", 0.1992}, {"throughput_error", "kg/s", 0.0024}};
+  const Answer found = answers_of(continuum::Setup(p), quantities, 1, folder).front();
+  EXPECT_EQ(found.question, "Throughput, steady");
+  EXPECT_EQ(found.answer, "0.199 ± 0.002 kg/s");
+  EXPECT_EQ(found.by_hand, "0.200 kg/s (inlets)");
+}
+
 TEST_F(Answers, OfASiloThatWasNotOpenForLongClaimNoArch) {
   set("residual_fraction", 1), set("residual_mass", 12.3), set("flow_stop_time", none), set("outlet_packing", 0.6);
   set("emptying_time", none);
