@@ -178,10 +178,24 @@ ContinuumCase read_as_it_is(const CaseFile& file) {
   return read;
 }
 
+/// \param whole the case with what its accuracy sets \throws InputError with every problem
+ContinuumCase read_with_accuracy(const CaseFile& whole) {
+  try {
+    return read_as_it_is(whole);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    // With other problems it is not known whether there is an outlet.
+    if (problems.size() == 1 && problems[0].key == "bed.spacing" && whole.contains("accuracy") &&
+        !whole.contains("bed.spacing"))
+      problems[0].what += ", and accuracy sets it by an outlet, which this case lacks";
+    throw InputError(std::move(problems));
+  }
+}
+
 /// \throws InputError with every problem
 ContinuumCase read_continuum(const CaseFile& file) {
   const CaseFile whole = with_accuracy(file, [](const CaseFile& trial) { return read_as_it_is(trial).setup; });
-  ContinuumCase read = read_as_it_is(whole);
+  ContinuumCase read = read_with_accuracy(whole);
   for (const CaseEntry& entry : whole.entries())
     if (!file.contains(entry.key)) read.filled.keys.insert_or_assign(entry.key, "accuracy");
   return read;
@@ -293,6 +307,9 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   for (const std::size_t n : continuum::inlets_after(p, end))
     prepared.regime.push_back({continuum::inlet_key(n, "from"), fmt::format("{:.4g} s", p.inlets[n].from),
                                fmt::format("nothing comes in before run.end, {:.4g} s", end), true});
+  for (const std::size_t n : continuum::inlets_past_vessel(*setup))
+    prepared.regime.push_back({continuum::inlet_key(n, "centre"), "beside the vessel",
+                               "most grains that come in there meet no wall on their way down", true});
   if (const double opens = continuum::first_opening(setup->vessel_outlets); opens >= end && end > 0)
     prepared.regime.push_back({"opening of the first gate", fmt::format("{:.4g} s", opens),
                                fmt::format("none opens before run.end, {:.4g} s", end), true});

@@ -56,6 +56,34 @@ std::vector<std::size_t> inlets_after(const Parameters& p, double end) {
   return late;
 }
 
+std::vector<std::size_t> inlets_past_vessel(const Layout& layout) {
+  const Parameters& p = layout.given;
+  std::vector<std::size_t> past;
+  if (p.vessel.empty() || p.box.floor != FaceKind::open) return past;
+  constexpr std::size_t max_paths = 100;
+  constexpr double segment = 4;  // of a path, in spacings
+  const Surface& surface = layout.boundary->vessel();
+  for (std::size_t n = 0; n < p.inlets.size(); ++n) {
+    const Vector3 start{p.inlets[n].velocity[0], p.inlets[n].velocity[1], p.inlets[n].velocity[2]};
+    const std::vector<Vector3> places = lattice_in(p, p.inlets[n]);
+    const std::size_t stride = 1 + places.size() / max_paths;
+    std::size_t paths = 0, free = 0;
+    for (std::size_t i = 0; i < places.size(); i += stride, ++paths) {
+      Vector3 x = places[i], v = start;
+      bool meets = false;
+      while (!meets && x.z >= surface.low().z) {
+        const double time = segment * p.bed.spacing / norm(v);
+        const Vector3 next = x + time * v;
+        meets = surface.blocks(x, next);
+        x = next, v.z -= p.gravity.acceleration * time;
+      }
+      if (!meets) ++free;
+    }
+    if (2 * free > paths) past.push_back(n);
+  }
+  return past;
+}
+
 InletLayer layer_of(const Layout& layout, const Inlet& inlet) {
   const Parameters& p = layout.given;
   const Surface& surface = layout.boundary->vessel();

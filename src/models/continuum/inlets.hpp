@@ -58,6 +58,9 @@ inline bool is_pouring(const std::vector<Inlet>& inlets, double time) {
 /// Those that begin after a run of such an end, s, has ended. A bed that settles first may take longer.
 std::vector<std::size_t> inlets_after(const Parameters& parameters, double end);
 
+/// Those most of whose grains meet no wall on their free fall down to where the vessel ends, above an open floor.
+std::vector<std::size_t> inlets_past_vessel(const Layout& layout);
+
 /// The key of the nth of [[inlet]], from 0.
 std::string inlet_key(std::size_t n, std::string_view name);
 

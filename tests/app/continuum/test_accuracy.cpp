@@ -148,6 +148,7 @@ TEST(Accuracy, OfACaseWithoutOutletLacksTheSpacing) {
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 1u);
     EXPECT_EQ(error.problems()[0].key, "bed.spacing");
+    EXPECT_EQ(error.problems()[0].what, "missing, and accuracy sets it by an outlet, which this case lacks");
   }
 }
 

@@ -232,6 +232,21 @@ TEST(Inlets, TheBitsDependNeitherOnThreadsNorOnResuming) {
   EXPECT_GT(resumed.state().population.removed, 0u);
 }
 
+TEST(Inlets, ThoseBesideTheVesselAreTold) {
+  Parameters p = silo_that_rubs();
+  p.box.floor = FaceKind::open;
+  Inlet within;
+  within.centre = {0.5 * p.box.width, 0.5 * p.box.depth, 0.9 * p.box.height}, within.velocity = {0, 0, -1};
+  within.width = within.depth = 2 * p.bed.spacing, within.rate = 0.01;
+  Inlet beside = within, thrown = within;
+  beside.centre[0] = p.bed.spacing;
+  thrown.velocity = {5, 0, -0.1};
+  p.inlets = {within, beside, thrown};
+  EXPECT_THAT(inlets_past_vessel(Layout(p)), testing::ElementsAre(1, 2));
+  p.box.floor = FaceKind::wall;
+  EXPECT_THAT(inlets_past_vessel(Layout(p)), testing::IsEmpty());
+}
+
 TEST(Inlets, ContradictionsAreToldAllAtOnce) {
   Parameters p = rain();
   p.inlets.push_back(p.inlets[0]);
