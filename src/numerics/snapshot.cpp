@@ -155,7 +155,7 @@ std::map<std::string, std::array<std::span<const double>, 6>> tensors_of(const S
 
 }  // namespace
 
-PointSet whole_of(const Snapshot& part) {
+PointSet whole_of(const Snapshot& part, std::span<const std::string> columns) {
   const SectorCopies& copies = part.copies.value();
   const Sector sector(copies.axis, copies.count);
   const std::size_t own = part.size();
@@ -169,6 +169,7 @@ PointSet whole_of(const Snapshot& part) {
     whole.columns.push_back({std::string(column.name), std::string(column.unit), std::move(values)});
   };
   for (const ColumnView& column : part.columns) {
+    if (!columns.empty() && std::find(columns.begin(), columns.end(), column.name) == columns.end()) continue;
     if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
       const bool is_position = column.name == "position";
       add(column, [&](std::size_t i, int k) {

@@ -157,7 +157,7 @@ struct SurfaceSnapshot {
 /// The particles of all copies, copy by copy: positions, vectors and tensors (six columns NAME_xx, NAME_yy, NAME_zz,
 /// NAME_xy, NAME_yz, NAME_zx) turned about the axis. A particle that has passed a face of the sector goes on in the
 /// next copy: its identity there is that which it had here. \pre part.copies \throws std::invalid_argument if the
-/// copies are too few or too many (Sector)
-PointSet whole_of(const Snapshot& part);
+/// copies are too few or too many (Sector) \param columns that the whole has, empty: all
+PointSet whole_of(const Snapshot& part, std::span<const std::string> columns = {});
 
 }  // namespace talus

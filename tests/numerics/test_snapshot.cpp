@@ -55,6 +55,17 @@ TEST(Whole, HoldsEveryCopyTurned) {
   EXPECT_EQ(identity[5], 1) << "two copies on it is the one that left there";
 }
 
+TEST(Whole, HasTheColumnsThatAreAskedFor) {
+  const PointSet part = quarter(), all = whole_of(part.view());
+  const std::string asked[] = {"position", "stress_yy"};
+  const PointSet some = whole_of(part.view(), asked);
+  ASSERT_EQ(some.columns.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<Vector3>>(some.columns[0].values),
+            std::get<std::vector<Vector3>>(all.columns[0].values));
+  EXPECT_EQ(std::get<std::vector<double>>(some.columns[1].values),
+            std::get<std::vector<double>>(all.columns[6].values));
+}
+
 TEST(Whole, OfTooFewCopiesIsNone) {
   PointSet part = quarter();
   part.copies->count = 2;

@@ -80,6 +80,12 @@ PointSource Continuum::stored() const {
 }
 
 void Continuum::visit(std::span<const std::string> columns, const std::function<void(const Snapshot&)>& take) const {
+  if (domain().sector() && !whole_) {
+    const PointSet points = whole_of(part(), columns);
+    Snapshot some = points.view();
+    some.domain = &*around_whole_;
+    return take(some);
+  }
   if (ranks_.is_alone() || domain().sector()) return take(snapshot());
   const PointSource all = stored();
   std::size_t first = 0;
