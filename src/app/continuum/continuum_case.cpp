@@ -80,8 +80,8 @@ std::vector<NamedValue> groups(const Setup& setup) {
   return groups;
 }
 
-Problem too_large(const Setup& setup, double available) {
-  const continuum::Forecast f = continuum::forecast(setup, 1);
+Problem too_large(const Setup& setup, double end, double available) {
+  const continuum::Forecast f = continuum::forecast(setup, end);
   const auto& count = setup.lattice.count;
   const double spacing = 1e3 * setup.given.bed.spacing;
   const auto dimensions = static_cast<double>(std::count_if(count.begin(), count.end(), [](auto n) { return n > 1; }));
@@ -331,7 +331,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.forecast = forecast_of_run(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
   prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };
-  prepared.too_large = [setup](double available) { return too_large(*setup, available); };
+  prepared.too_large = [setup, end](double available) { return too_large(*setup, end, available); };
   prepared.headline = p.plate.height || setup->outlet ? run::Headline{.column = "discharge_rate", .name = "discharge"}
                                                       : run::Headline{.column = "speed_max", .name = "fastest"};
   prepared.open = [setup, title = read.run.title](const std::filesystem::path& folder) {

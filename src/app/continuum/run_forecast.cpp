@@ -45,7 +45,7 @@ double mean_mass_come(const Setup& setup, double end) {
     }
     mass += come;
   }
-  return mass;
+  return p.inlets.empty() ? 0 : std::min(mass, continuum::room_for_inlets(setup));
 }
 
 /// Particles in flow over those that measure_step() has: those that leave a vessel are taken away below it.
@@ -116,9 +116,13 @@ Forecast forecast_of_run(const Setup& setup, const run::RunParameters& run) {
       {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
   const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
   const double whole = run.end + f.settling_steps * continuum::time_step_of(setup);
-  forecast.disk_bytes =
-      (whole / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 150 * f.drawn_triangles + 20e3) +
-      (run.report ? 5e6 : 0) + 2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) + rows * 600;
+  const double written = setup.given.inlets.empty()
+                             ? f.particles
+                             : continuum::share_of_particles(setup) * continuum::bed_count(setup) +
+                                   mean_mass_come(setup, run.end) / setup.lattice.mass;
+  forecast.disk_bytes = (whole / run.snapshots + 1) * (150 * written + 45 * f.cells + 150 * f.drawn_triangles + 20e3) +
+                        (run.report ? 5e6 : 0) + 2 * (350 * f.particles + 250 * f.cells + 250 * f.load_fields + 20e3) +
+                        rows * 600;
   return forecast;
 }
 

@@ -77,6 +77,19 @@ double points_on_square(const LevelParameters& levels) {
 
 }  // namespace
 
+double room_for_inlets(const Setup& setup) {
+  const Parameters& p = setup.given;
+  double high = 0, low = 0, area = p.box.width * p.box.depth;
+  for (const Inlet& inlet : p.inlets) high = std::max(high, inlet.centre[2]);
+  if (p.box.floor == FaceKind::open && !p.vessel.empty()) {
+    const auto [from, to] = bounds_of_vessel(p);
+    low = std::max(low, from.z);
+    area = std::min(area, (to.x - from.x) * (to.y - from.y));
+  }
+  const double bed = setup.lattice.mass * bed_count(setup) * setup.copies;
+  return std::max(0.0, setup.density * area * (high - low) - bed);
+}
+
 double time_step_of(const Setup& setup) {
   const auto& integration = setup.given.integration;
   return integration.step.value_or(integration.courant * setup.smoothing_length / setup.sound_speed);
@@ -89,7 +102,8 @@ Forecast forecast(const Setup& setup, double end) {
                bed = share_of_particles(setup) * bed_count(setup);
   const double step = time_step_of(setup);
   const SettlingTime settling = settling_time(setup);
-  const double particles = bed + mass_to_come(p, end, settling.max) / setup.lattice.mass;
+  const double come = p.inlets.empty() ? 0 : std::min(mass_to_come(p, end, settling.max), room_for_inlets(setup));
+  const double particles = bed + come / setup.lattice.mass;
   return {.particles = particles,
           .written = setup.copies * particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,

@@ -25,6 +25,10 @@ struct Forecast {
   double flow_steps = 0;          ///< from then on
 };
 
+/// Of grains that inlets bring, what the bed leaves room for below the highest of them, kg: within the extent of the
+/// vessel, where the floor of the box is open.
+double room_for_inlets(const Setup& setup);
+
 /// \param end s, from the opening of the gate; \pre the case is valid: check()
 Forecast forecast(const Setup& setup, double end);
 

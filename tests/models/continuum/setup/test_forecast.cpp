@@ -210,6 +210,24 @@ TEST(ContinuumSample, OfAVesselHasItsWalls) {
   model.advance(team);
 }
 
+TEST(ContinuumForecast, OfInletsHasRoomForNoMoreThanTheBoxHolds) {
+  Parameters p = section(0.1, 0.05);
+  p.box.depth = 0.1, p.box.height = 0.3;
+  Inlet inlet;
+  inlet.centre = {0.05, 0.05, 0.25}, inlet.velocity = {0, 0, -1}, inlet.width = inlet.depth = 0.02;
+  inlet.rate = 0.1, inlet.clock = InletClock::gate;
+  p.inlets = {inlet};
+  const continuum::Setup setup = setup_of(p);
+  const double bed = bed_count(setup), mass = setup.lattice.mass;
+  EXPECT_NEAR(forecast(setup, 2).particles, bed + 0.2 / mass, 1) << "as much as comes in";
+  EXPECT_NEAR(forecast(setup, 1e6).particles, 0.1 * 0.1 * 0.25 * setup.density / mass, 1) << "the box up to the inlet";
+  p.box.floor = FaceKind::open;
+  VesselPart pipe;
+  pipe.radius = 0.03, pipe.bottom = 0.1, pipe.top = 0.28;
+  p.vessel = {pipe};
+  EXPECT_NEAR(room_for_inlets(setup_of(p)), 0.06 * 0.06 * 0.15 * setup.density - mass * bed_count(setup_of(p)), 1e-6);
+}
+
 TEST(ContinuumSample, StartsWithoutThePlates) {
   Parameters p = small_hopper();
   make_granular(p);
