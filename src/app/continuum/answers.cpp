@@ -345,9 +345,13 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
         {"Fed", fmt::format("{} of {}: inlets had no room for more", mass_text(fed), mass_text(asked)), ""});
   if (const double rate = value_of(quantities, "throughput"); rate > 0) {
     double comes = 0;
-    for (const continuum::Inlet& inlet : p.inlets) comes += inlet.rate;
+    bool together = true;
+    for (const continuum::Inlet& inlet : p.inlets) {
+      comes += inlet.rate;
+      together = together && inlet.from == p.inlets[0].from && inlet.end() == p.inlets[0].end();
+    }
     answers.push_back({"Throughput, steady", rate_text(rate, value_of(quantities, "throughput_error")),
-                       comes > 0 ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
+                       comes > 0 && together ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
   }
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",
