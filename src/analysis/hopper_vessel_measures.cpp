@@ -247,8 +247,8 @@ std::vector<Row> hopper_vessel_measures() {
           {[](const Run& r, const Window&) { return steady_discharge(r).value / r.setting.outlet_length; }},
           {vessel_with_slit}),
       Row("throughput", "kg/s",
-          "of a chute or a belt, without an outlet: mean rate at which grains are taken away, over a stretch as of "
-          "discharge_steady",
+          "of a chute or a belt, without an outlet: mean rate at which grains are taken away, over the longest stretch "
+          "of means over T, five at least, that lie within 10 % of their own mean",
           {[](const Run& r, const Window&) { return steady_throughput(r).value; }}, {passes_grains_on}),
       Row("throughput_error", "kg/s", "as discharge_steady_error",
           {[](const Run& r, const Window&) { return steady_throughput(r).error; }}, {passes_grains_on}),

@@ -324,6 +324,16 @@ double asked_of_inlets(const continuum::Parameters& p, double end) {
   return mass;
 }
 
+/// Of all inlets together, kg/s; nan where they come in at different times.
+double rate_of_inlets(const continuum::Parameters& p) {
+  double rate = 0;
+  for (const continuum::Inlet& inlet : p.inlets) {
+    if (inlet.from != p.inlets[0].from || inlet.end() != p.inlets[0].end()) return HopperRun::none;
+    rate += inlet.rate;
+  }
+  return rate;
+}
+
 }  // namespace
 
 std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<NamedValue>& quantities, double end,
@@ -344,14 +354,9 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
     answers.push_back(
         {"Fed", fmt::format("{} of {}: inlets had no room for more", mass_text(fed), mass_text(asked)), ""});
   if (const double rate = value_of(quantities, "throughput"); rate > 0) {
-    double comes = 0;
-    bool together = true;
-    for (const continuum::Inlet& inlet : p.inlets) {
-      comes += inlet.rate;
-      together = together && inlet.from == p.inlets[0].from && inlet.end() == p.inlets[0].end();
-    }
+    const double comes = rate_of_inlets(p);
     answers.push_back({"Throughput, steady", rate_text(rate, value_of(quantities, "throughput_error")),
-                       comes > 0 && together ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
+                       comes > 0 ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
   }
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",

@@ -308,7 +308,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
     prepared.regime.push_back({continuum::inlet_key(n, "from"), fmt::format("{:.4g} s", p.inlets[n].from),
                                fmt::format("nothing comes in before run.end, {:.4g} s", end), true});
   for (const std::size_t n : continuum::inlets_past_vessel(*setup))
-    prepared.regime.push_back({continuum::inlet_key(n, "centre"), "beside the vessel",
+    prepared.regime.push_back({continuum::inlet_key(n, "centre"), "past the vessel",
                                "most grains that come in there meet no wall on their way down", true});
   if (const double opens = continuum::first_opening(setup->vessel_outlets); opens >= end && end > 0)
     prepared.regime.push_back({"opening of the first gate", fmt::format("{:.4g} s", opens),

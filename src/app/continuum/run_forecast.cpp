@@ -9,6 +9,7 @@
 #include "app/materials/materials.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/setup/forecast.hpp"
+#include "models/continuum/workspace.hpp"
 
 namespace talus::app {
 
@@ -18,9 +19,10 @@ using continuum::Parameters;
 using continuum::Setup;
 
 constexpr double max_measured = 8000;  // particles
-// Measured in some ten cases.
-constexpr double of_analytical = 0.85;   // discharge over the analytical rate: 0.76 to 0.9 in silos
-constexpr double of_largest_fall = 0.7;  // speed at which lists break over the speed at the end of a fall: 0.66 to 0.8
+// Discharge over the analytical rate: mill and concrete silo 0.76, silo-cone 0.89.
+constexpr double of_analytical = 0.85;
+// Speed at which lists break over the speed at the end of a fall: bin filling and chute 0.66, silo-cone 0.79.
+constexpr double of_largest_fall = 0.7;
 
 /// Where grains are taken away, or on the floor of the box, m/s.
 double largest_speed(const Setup& setup) {
@@ -39,7 +41,7 @@ double mean_mass_come(const Setup& setup, double end) {
     if (!(last > inlet.from)) continue;
     double come = inlet.rate * (last - inlet.from) * (end - 0.5 * (inlet.from + last)) / end;
     const auto& [x, y, z] = inlet.centre;
-    const double speed = std::hypot(inlet.velocity[0], inlet.velocity[1], inlet.velocity[2]) + largest_speed(setup);
+    const double speed = inlet.speed() + largest_speed(setup);
     if (leave && speed > 0 && !shape.upright_at({x, y, z})) {
       const double way = std::hypot(std::max(x, p.box.width - x), std::max(y, p.box.depth - y), z);
       come = std::min(come, inlet.rate * 2 * way / speed);
@@ -63,13 +65,12 @@ double mean_share_present(const Setup& setup, double end) {
 /// The margins of lists in flow (set_list_reference()), whose particles have the mean speed of the vessel's cross
 /// section.
 Parameters with_lists_in_flow(const Setup& setup) {
-  constexpr double steps = 20;
   Parameters p = setup.given;
   const double mass = setup.lattice.mass * continuum::bed_count(setup) * setup.copies;
   const double half_skin = 0.5 * p.integration.skin * p.bed.spacing;
   if (!(mass > 0 && half_skin > 0)) return p;
   const double speed = discharge_by_hand(setup) * setup.depth / mass;
-  const double margin = steps * continuum::time_step_of(setup) * speed;
+  const double margin = continuum::steps_of_margin * continuum::time_step_of(setup) * speed;
   p.integration.skin_at_rest = std::clamp(margin / half_skin, p.integration.skin_at_rest, 1.0);
   return p;
 }
@@ -100,7 +101,7 @@ double measure_particle(const Setup& given, double builds, ThreadTeam& team) {
 Setup filled(const Setup& setup, double end) {
   Parameters p = setup.given;
   p.inlets.clear();
-  p.bed.mass = mean_mass_come(setup, end) * setup.copies;
+  p.bed.mass = mean_mass_come(setup, end);
   return Setup(with_level(setup.with(p)));
 }
 
@@ -128,14 +129,11 @@ Forecast forecast_of_run(const Setup& setup, const run::RunParameters& run) {
 }
 
 double list_builds_of_step(const Setup& setup) {
-  constexpr double steps = 20;
   const Parameters& p = setup.given;
   const double step = continuum::time_step_of(setup), half_skin = 0.5 * p.integration.skin * p.bed.spacing;
   if (!(half_skin > 0)) return 1;
-  double builds = std::max(1 / steps, of_largest_fall * step * largest_speed(setup) / half_skin);
-  for (const continuum::Inlet& inlet : p.inlets)
-    builds =
-        std::max(builds, step * std::hypot(inlet.velocity[0], inlet.velocity[1], inlet.velocity[2]) / p.bed.spacing);
+  double builds = std::max(1 / continuum::steps_of_margin, of_largest_fall * step * largest_speed(setup) / half_skin);
+  for (const continuum::Inlet& inlet : p.inlets) builds = std::max(builds, step * inlet.speed() / p.bed.spacing);
   return std::min(1.0, builds);
 }
 

@@ -10,10 +10,11 @@
 
 namespace talus::app {
 
+/// Steps, mean particles, memory and disk. \pre the case is valid
 Forecast forecast_of_run(const continuum::Setup& setup, const run::RunParameters& run);
 
 /// Neighbour lists that a step in flow builds: the fastest particle leaves its own after half of the skin, at the
-/// latest after the 20 steps that its margin is for (set_list_reference()), and inlets let in a layer. At most 1.
+/// latest after the steps that its margin is for (steps_of_margin), and inlets let in a layer. At most 1.
 double list_builds_of_step(const continuum::Setup& setup);
 
 /// Processor time of a step in flow over the threads, s, with the particles of the start or, where grains come in only,

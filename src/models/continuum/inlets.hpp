@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct Inlet {
   std::optional<double> to;
 
   double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
+  double speed() const { return std::hypot(velocity[0], velocity[1], velocity[2]); }
 };
 
 struct Removal {

@@ -47,13 +47,13 @@ void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
 }
 
 void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
-  constexpr double steps = 20;
   const double most = 0.5 * w.pairs.skin();
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
   s.list_margin.resize(s.position.size());
   for (std::size_t i = 0; i < s.position.size(); ++i)
-    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), p.integration.skin_at_rest * most, most);
+    s.list_margin[i] =
+        std::clamp(steps_of_margin * s.last_step * norm(s.velocity[i]), p.integration.skin_at_rest * most, most);
 }
 
 void drop_halo(const Parameters& p, State& s, Workspace& w) {

@@ -64,6 +64,9 @@ struct Workspace {
 /// Those of the workspace, from the densities of the state.
 void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& workspace);
 
+/// Steps in which a particle moves as far as its margin in the lists, if its speed and the skin allow it.
+inline constexpr double steps_of_margin = 20;
+
 /// Notes where neighbour lists are built, and how far each particle may move before the next ones: those that are fast
 /// farther than those at rest, so that lists of a bed are short and those of a stream hold for some steps.
 void set_list_reference(const Parameters& parameters, State& state, const Workspace& workspace);

@@ -94,6 +94,10 @@ TEST_F(Answers, OfAChuteHaveItsThroughputBesideWhatComesIn) {
   EXPECT_EQ(found.question, "Throughput, steady");
   EXPECT_EQ(found.answer, "0.199 ± 0.002 kg/s");
   EXPECT_EQ(found.by_hand, "0.200 kg/s (inlets)");
+  p.inlets.push_back(inlet);
+  EXPECT_EQ(answers_of(continuum::Setup(p), quantities, 1, folder).front().by_hand, "0.400 kg/s (inlets)");
+  p.inlets[1].from = 0.5;
+  EXPECT_EQ(answers_of(continuum::Setup(p), quantities, 1, folder).front().by_hand, "") << "not together";
 }
 
 TEST_F(Answers, OfASiloThatWasNotOpenForLongClaimNoArch) {

@@ -47,6 +47,9 @@ TEST(RunForecast, CountsTheParticlesThatAreLeft) {
   EXPECT_NEAR(whole.present, 0.25, 1e-9) << "a line to nothing, then nothing";
   EXPECT_NEAR(whole.evaluations, whole.present * whole.steps, 1e-6 * whole.steps);
   EXPECT_NEAR(flow(p, 0.1 * emptied).present, 0.95, 1e-9);
+  Parameters sector = p;
+  sector.box.sector = continuum::half_turn / 6;
+  EXPECT_NEAR(flow(sector, 0.1 * emptied).present, 0.95, 0.01) << "of its own bed, by its share of the discharge";
   Parameters kept = p;
   kept.box.floor = FaceKind::wall;
   EXPECT_LT(flow(kept, emptied).present, 1) << "what is taken away above the floor";

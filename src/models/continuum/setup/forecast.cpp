@@ -86,7 +86,7 @@ double room_for_inlets(const Setup& setup) {
     low = std::max(low, from.z);
     area = std::min(area, (to.x - from.x) * (to.y - from.y));
   }
-  const double bed = setup.lattice.mass * bed_count(setup) * setup.copies;
+  const double bed = setup.lattice.mass * bed_count(setup);
   return std::max(0.0, setup.density * area * (high - low) - bed);
 }
 
