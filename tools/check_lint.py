@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs clang-tidy (.clang-tidy) on the files of src/, as many at once as there are processors.
+"""Runs clang-tidy (.clang-tidy) on the files of src/, as many at once as there are processors: one by one, or by folders
+where the build compiles folders as one (CMAKE_UNITY_BUILD).
 
 A file is looked at again only when something changed that its last clean result depends on: the list of checks, its
 command, or one of the files of src/ that the build found it to include.
@@ -47,7 +48,8 @@ def fingerprint(root, build, commands, files):
 def check(build, path):
     """clang-tidy's findings in one file, or an empty text."""
     done = subprocess.run(
-        [TIDY, "--quiet", "-p", str(build), "--extra-arg=-Wno-unknown-warning-option", str(path)],
+        [TIDY, "--quiet", "-p", str(build), f"--config-file={root / '.clang-tidy'}",
+         "--extra-arg=-Wno-unknown-warning-option", str(path)],
         capture_output=True, text=True)
     return done.stdout + done.stderr if done.returncode else ""
 
@@ -69,7 +71,7 @@ def main():
         commands.setdefault(pathlib.Path(command["file"]), []).append(command)
     waiting, keep = [], set()
     for path, several in commands.items():
-        if not path.is_relative_to(root / "src"):
+        if not path.is_relative_to(root / "src") and not path.is_relative_to(build / "src"):
             continue
         files = {file for command in several for file in made_of.get(OUTPUT.search(command["command"]).group(1), [])}
         name = fingerprint(root, build, several, files)

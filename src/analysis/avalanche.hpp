@@ -3,7 +3,6 @@
 /// and frontal angles of Niiya, Awazu & Nishimori (2020) are measured by validation/niiya2020/measures.py.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,14 +50,13 @@ struct FallSnapshot {
 struct AvalancheRun {
   using Snapshot = FallSnapshot;
   using Numbers = SnapshotNumbers<FallSnapshot>;
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   AvalancheScales scales;
   CloudMotion motion = CloudMotion::on_slope;
-  double end = 0;             ///< a/v_s
-  Curve front_speed = {};     ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
-  Numbers snapshots = {};     ///< of a fall, against the time in a/v_s: the state at the start, then the data
-  double overlap_max = none;  ///< over a
+  double end = 0;                 ///< a/v_s
+  Curve front_speed = {};         ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
+  Numbers snapshots = {};         ///< of a fall, against the time in a/v_s: the state at the start, then the data
+  double overlap_max = no_value;  ///< over a
 
   /// Whether the run went on to that time, but for a step.
   bool reaches(double time) const { return end >= time * (1 - 1e-3); }

@@ -15,12 +15,10 @@ using Run = AvalancheRun;
 using Row = Measure<Run>;
 using Number = Run::Numbers::Number;
 
-constexpr double none = Run::none;
-
 /// The datum nearest the window's time, of two the earlier; the start counts only where it is all there is.
 double value_at_window(Number number, const Run& run, const Window& window) {
   const std::vector<double>& time = run.snapshots.time();
-  if (time.empty()) return none;
+  if (time.empty()) return no_value;
   const double at = window.at.value_or(Window::end_of_run);
   const std::size_t first = std::min<std::size_t>(1, time.size() - 1);
   const std::size_t n = std::isinf(at) ? time.size() - 1 : first + nearest_point(std::span(time).subspan(first), at);
@@ -42,7 +40,7 @@ Estimator<Run> at(Number of) {
 Estimator<Run> of_front_speed(double (*of)(const Curve& within)) {
   return {[=](const Run& run, const Window& w) {
     const Curve speed = part(run.front_speed, w.from, w.to);
-    return speed.time.empty() ? none : of(speed);
+    return speed.time.empty() ? no_value : of(speed);
   }};
 }
 
@@ -67,7 +65,7 @@ const std::vector<Row> list = {
     Row("fall_speed_start", "1",
         "mean velocity along gravity over v_s at the start, of the grains that have not leaked",
         {[](const Run& r, const Window&) {
-          return r.snapshots.time().empty() ? none : r.snapshots.value(0, fall_speed);
+          return r.snapshots.time().empty() ? no_value : r.snapshots.value(0, fall_speed);
         }},
         {falling}),
     Row("fall_speed_end", "1", "mean velocity along gravity over v_s at the end, of the grains that have not leaked",

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "analysis/statistics.hpp"
@@ -57,8 +56,7 @@ std::size_t nearest_point(std::span<const double> time, double t) {
 Extremes extremes(const Curve& curve) {
   require_points(curve);
   if (std::any_of(curve.value.begin(), curve.value.end(), [](double value) { return std::isnan(value); })) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan, nan};
+    return {no_value, no_value, no_value};
   }
   const auto [least, largest] = std::minmax_element(curve.value.begin(), curve.value.end());
   // minmax_element finds the last of equal largest values.
@@ -73,7 +71,7 @@ double first_time_at_or_below(const Curve& curve, double level) {
     const double share = (curve.value[n - 1] - level) / (curve.value[n - 1] - curve.value[n]);
     return std::lerp(curve.time[n - 1], curve.time[n], share);
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return no_value;
 }
 
 }  // namespace talus

@@ -2,10 +2,15 @@
 /// Numbers that change with time: a curve, and what is read off it.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace talus {
+
+/// In place of a number that a run does not have: nan.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Values at increasing times, one per time. The unit of time is the caller's: s, or a/v_s for a curve of an ensemble.
 struct Curve {

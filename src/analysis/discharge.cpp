@@ -7,7 +7,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -18,9 +17,7 @@
 
 namespace talus {
 
-namespace {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-}
+namespace {}
 
 Curve integral(const Curve& curve) {
   Curve sum{curve.time, std::vector<double>(curve.time.size(), 0.0)};
@@ -41,7 +38,7 @@ bool covers(const Curve& curve, double from, double to) {
 }
 
 double mean_rate(const Curve& cumulative, double from, double to) {
-  if (!covers(cumulative, from, to) || !(to > from)) return none;
+  if (!covers(cumulative, from, to) || !(to > from)) return no_value;
   return (value_at(cumulative, to) - value_at(cumulative, from)) / (to - from);
 }
 
@@ -66,7 +63,7 @@ double first_maximum_time(const Curve& values, double reach) {
     }
     if (largest) return values.time[n];
   }
-  return none;
+  return no_value;
 }
 
 Curve about_running_mean(const Curve& curve, double length, double from, double to) {
@@ -124,7 +121,7 @@ Curve power_spectrum(const Curve& curve, double least, double most) {
 }
 
 double dominant_period(const Curve& curve, double shortest, double longest) {
-  double period = none, highest = 0;
+  double period = no_value, highest = 0;
   if (curve.time.size() < 4) return period;
   const Curve power = power_spectrum(curve, 1 / longest, 1 / shortest);
   for (std::size_t k = 1; k + 1 < power.value.size(); ++k)
@@ -143,7 +140,7 @@ double crossing_period(const Curve& curve) {
     end = std::lerp(curve.time[n - 1], curve.time[n], before / (before - now));
     if (crossings++ == 0) begin = end;
   }
-  return crossings > 1 ? (end - begin) / (crossings - 1) : none;
+  return crossings > 1 ? (end - begin) / (crossings - 1) : no_value;
 }
 
 namespace {
@@ -195,7 +192,7 @@ double error_of_blocks(const Curve& cumulative, double length, double from, doub
   const double count = static_cast<double>(fine.value.size());
   const double block = std::max(times * correlation_time(fine.value), in_length);
   const double blocks = std::min(max_blocks, std::floor(count / block));
-  if (!(blocks >= static_cast<double>(fewest))) return Plateau::none;
+  if (!(blocks >= static_cast<double>(fewest))) return no_value;
   const double each = (to - from) / blocks;
   std::vector<double> means;
   for (double n = 0; n < blocks; ++n)

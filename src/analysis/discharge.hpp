@@ -5,7 +5,6 @@
 /// is nan, or empty.
 #pragma once
 
-#include <limits>
 #include <span>
 
 #include "analysis/curve.hpp"
@@ -56,11 +55,9 @@ double dominant_period(const Curve& curve, double shortest, double longest);
 double crossing_period(const Curve& curve);
 
 struct Plateau {
-  double from = none, to = none;  ///< its ends
-  double value = none;            ///< mean rate between them
-  double error = none;            ///< half width of its 95 % interval; nan where the stretch is too short for one
-
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double from = no_value, to = no_value;  ///< its ends
+  double value = no_value;                ///< mean rate between them
+  double error = no_value;  ///< half width of its 95 % interval; nan where the stretch is too short for one
 };
 
 /// The longest stretch of consecutive means over `length`, five at least, that all lie within `spread` of their own

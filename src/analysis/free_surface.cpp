@@ -6,14 +6,13 @@
 #include <limits>
 #include <optional>
 
+#include "analysis/curve.hpp"
 #include "analysis/statistics.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Cells along an axis that a disc may touch: [first, last).
 struct Cells {
@@ -87,12 +86,12 @@ double height_of_column(const Section& packing, std::size_t column, std::size_t 
   if (search == Vessel::Search::from_above) {
     for (std::size_t row = last - 1; row-- > first;)
       if (is_grains(row) && !is_grains(row + 1)) return crossing(packing, column, row, level);
-    return none;
+    return no_value;
   }
-  if (!is_grains(first)) return none;
+  if (!is_grains(first)) return no_value;
   for (std::size_t row = first; row + 1 < last; ++row)
     if (!is_grains(row + 1)) return crossing(packing, column, row, level);
-  return none;
+  return no_value;
 }
 
 /// The line through the heights of a stretch; nothing for fewer than three.
@@ -119,7 +118,7 @@ double FreeSurface::height(double at) const {
   // Between a wall and the middle of the first or last column.
   if (x.size() > 1 && at < x.front() && at > 1.5 * x[0] - 0.5 * x[1] - 1e-12) return z.front();
   if (x.size() > 1 && at > x.back() && at < 1.5 * x.back() - 0.5 * x[x.size() - 2] + 1e-12) return z.back();
-  return none;
+  return no_value;
 }
 
 FreeSurface free_surface(const Section& packing, const Vessel& vessel, double level) {
@@ -129,7 +128,8 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
   FreeSurface surface;
   for (std::size_t column = 0; column < packing.columns; ++column) {
     surface.x.push_back(packing.x(column));
-    surface.z.push_back(last - first < 2 ? none : height_of_column(packing, column, first, last, vessel.search, level));
+    surface.z.push_back(last - first < 2 ? no_value
+                                         : height_of_column(packing, column, first, last, vessel.search, level));
   }
   return surface;
 }
@@ -146,7 +146,7 @@ double against(double level, double slope) {
 double surface_angle(const FreeSurface& surface, double middle, double tilt) {
   constexpr double far = std::numeric_limits<double>::infinity();
   const auto left = line(surface, -far, middle), right = line(surface, middle, far);
-  if (!left && !right) return none;
+  if (!left && !right) return no_value;
   const auto steepness = [level = std::tan(tilt)](const auto& half) { return std::abs(against(level, half->slope)); };
   return std::atan(0.5 * (steepness(left ? left : right) + steepness(right ? right : left)));
 }
@@ -155,7 +155,7 @@ namespace {
 
 /// Mean over up to two neighbours on each side, as many on one as on the other, none of them beyond a gap.
 std::vector<double> smoothed(const std::vector<double>& z) {
-  std::vector<double> means(z.size(), none);
+  std::vector<double> means(z.size(), no_value);
   for (std::size_t n = 0; n < z.size(); ++n) {
     if (!std::isfinite(z[n])) continue;
     double sum = z[n];
@@ -209,7 +209,7 @@ std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length
 }
 
 ReposeAngle repose_angle(std::span<const HeapSlope> slopes, double middle) {
-  ReposeAngle found{none, none, none, none};
+  ReposeAngle found{no_value, no_value, no_value, no_value};
   double max_left = 0, max_right = 0;
   for (const HeapSlope& slope : slopes) {
     const bool is_left = 0.5 * (slope.from + slope.to) < middle;

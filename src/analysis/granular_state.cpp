@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/curve.hpp"
 #include "analysis/statistics.hpp"
 
 namespace talus {
 
 namespace {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double quasistatic = 1e-2;  // Yuu & Umekage 2011, section 2.1
 constexpr double dense = 0.5;         // packing from which stresses act, section 5.1
 }  // namespace
@@ -45,7 +45,7 @@ double inertial_share(std::span<const double> inertial, const std::vector<bool>&
     all += weight[i];
     if (inertial[i] < quasistatic) slow += weight[i];
   }
-  return all > 0 ? slow / all : none;
+  return all > 0 ? slow / all : no_value;
 }
 
 std::vector<bool> quasistatic_particles(const Snapshot& snapshot, std::span<const double> inertial,
@@ -66,7 +66,7 @@ double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken) {
     horizontal += weight[i] * xx[i];
     vertical += weight[i] * zz[i];
   }
-  return vertical > 0 ? horizontal / vertical : none;
+  return vertical > 0 ? horizontal / vertical : no_value;
 }
 
 GradientSizes velocity_gradient_sizes(std::span<const Tensor3<>> gradients, std::span<const double> packing,

@@ -100,8 +100,7 @@ const std::vector<Tensor3<>>& HopperSnapshot::velocity_gradients() const {
 
 const GradientSizes& HopperSnapshot::gradient_sizes() const {
   return made_once(gradient_sizes_, [&] {
-    constexpr double none = HopperRun::none;
-    if (now.size() == 0) return GradientSizes{none, none};
+    if (now.size() == 0) return GradientSizes{no_value, no_value};
     return velocity_gradient_sizes(velocity_gradients(), now.scalars("packing"), setting.grain_diameter,
                                    setting.gravity);
   });
@@ -160,7 +159,7 @@ std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, dou
     };
     if (passed.value.empty()) continue;
     add("discharged_mass", "kg", passed.value.back());
-    add("discharge_rate", "kg/s", from < to ? mean_rate(passed, from, to) : HopperRun::none);
+    add("discharge_rate", "kg/s", from < to ? mean_rate(passed, from, to) : no_value);
     if (outlet.hand_discharge > 0) add("discharge_rate_beverloo", "kg/s", outlet.hand_discharge);
     add("particles_across", "1", outlet.across / run.setting.shape.spacing);
     add("grains_across", "1", outlet.across / run.setting.grain_diameter);

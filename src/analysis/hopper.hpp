@@ -6,7 +6,6 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,12 +82,11 @@ struct HopperSetting {
   std::vector<BandOfWall> bands = {};       ///< of the vessel's walls
   double hand_discharge = 0;                ///< by an analytical estimate, kg/s; 0: none for this outlet
   std::vector<OutletSetting> outlets = {};  ///< where there are several
-  double mass_flow_half_angle =
-      std::numeric_limits<double>::quiet_NaN();  ///< by an analytical estimate, rad; nan: none
-  double averaging_time = 20e-3;  ///< T, of rates, loads and speeds; peaks are averages over half of it, s
-  double time_scale = 64e-3;      ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
-  double outlet_width = 0;        ///< D, its narrower side or diameter; 0: no outlet, m
-  double outlet_depth = 0;        ///< along y, m
+  double mass_flow_half_angle = no_value;   ///< by an analytical estimate, rad; nan: none
+  double averaging_time = 20e-3;            ///< T, of rates, loads and speeds; peaks are averages over half of it, s
+  double time_scale = 64e-3;                ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
+  double outlet_width = 0;                  ///< D, its narrower side or diameter; 0: no outlet, m
+  double outlet_depth = 0;                  ///< along y, m
   bool outlet_is_round = false;
   double bed_packing = 0.6;  ///< at the start
   double stress_share = 1;   ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
@@ -133,7 +131,6 @@ class HopperSnapshot {
 struct HopperRun {
   using Snapshot = HopperSnapshot;
   using Numbers = SnapshotNumbers<HopperSnapshot>;
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   HopperSetting setting;
   /// In the run's time: the columns of app/continuum/hopper_observers.hpp and the model's impulses.

@@ -15,7 +15,6 @@ namespace talus::hopper {
 
 namespace {
 
-constexpr double none = HopperRun::none;
 constexpr double nearly_all = 0.999, most = 0.95;
 constexpr double min_slope_in_spacings = 10;
 
@@ -37,7 +36,7 @@ double end_of(const Window& window, const HopperRun& run) {
 /// The time that a window names, or the end; nan if the run ended before it, but for a few steps.
 double time_of(const Window& window, const HopperRun& run) {
   const double at = window.at.value_or(Window::end_of_run), end = run.end();
-  return at > end + averages(run).trend && !std::isinf(at) ? none : std::min(at, end);
+  return at > end + averages(run).trend && !std::isinf(at) ? no_value : std::min(at, end);
 }
 
 std::vector<double> within(Number number, const HopperRun& run, const Window& window) {
@@ -76,7 +75,7 @@ ReposeAngle repose_in(const HopperSnapshot& s, Where where) {
 
 double quiescent_speed(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
-  if (!before) return none;
+  if (!before) return no_value;
   const std::vector<double> speed = mean_speeds(*before, s.now, s.setting.computed);
   return quantile_of(speed, without_nan(s.deep(), speed), most);
 }
@@ -155,7 +154,7 @@ Plateau steady_discharge(const HopperRun& run) {
   if (!std::isfinite(from)) return {};
   // A vessel that is fed stays full: its share discharged says nothing of its height.
   const bool is_fed = mass_at_end(run) > run.setting.mass();
-  const double low = is_fed ? none : first_time_at_or_above(share, steady_to);
+  const double low = is_fed ? no_value : first_time_at_or_above(share, steady_to);
   const Curve passed = passed_mass(run);
   const Plateau found =
       find_plateau(passed, run.setting.averaging_time, plateau_spread, from, std::isfinite(low) ? low : run.end());
@@ -170,11 +169,11 @@ Plateau steady_throughput(const HopperRun& run) {
 
 double value_at_window(Number number, const HopperRun& run, const Window& window) {
   const std::vector<double>& time = run.snapshots.time();
-  if (time.empty()) return none;
+  if (time.empty()) return no_value;
   const double at = window.at.value_or(Window::end_of_run), last = time.back();
   if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number);
   const double interval = time.size() > 1 ? last - time[time.size() - 2] : 0;
-  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number);
+  return at > last + 0.5 * interval ? no_value : run.snapshots.value(nearest_point(time, at), number);
 }
 
 Estimator<HopperRun> at(Number number) {
@@ -192,7 +191,7 @@ Estimator<HopperRun> mean_of(Number number) {
 double period_of_discharge(const HopperRun& run, const Window& window) {
   const Curve part = fluctuating_discharge(run, window);
   const double longest = run.setting.averaging_time;
-  return part.time.empty() ? none : dominant_period(part, min_period * longest, longest);
+  return part.time.empty() ? no_value : dominant_period(part, min_period * longest, longest);
 }
 
 double crossing_period_of_discharge(const HopperRun& run, const Window& window) {
@@ -216,7 +215,7 @@ double extreme_time(const Curve& cumulative, const HopperRun& run, const Window&
 double share_at(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double at = time_of(window, run);
-  return covers(share, at, at) ? value_at(share, at) : none;
+  return covers(share, at, at) ? value_at(share, at) : no_value;
 }
 
 double floor_arrival(const HopperRun& run, const Window&) {
@@ -236,7 +235,7 @@ double settled_stress_ratio(const HopperRun& run, const Window&) {
   std::size_t settled = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) settled = n;
-  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio) : none;
+  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio) : no_value;
 }
 
 namespace {

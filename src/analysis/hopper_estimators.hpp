@@ -67,9 +67,9 @@ enum class FlowState {
 };
 struct FlowEnd {
   FlowState state = FlowState::has_not_started;
-  double discharged = 0;               ///< of M and what has come in since, 1
-  double left = 0;                     ///< above the outlet at the end, kg
-  double stop_time = HopperRun::none;  ///< of the last outflow, where it has stopped or emptied, s
+  double discharged = 0;        ///< of M and what has come in since, 1
+  double left = 0;              ///< above the outlet at the end, kg
+  double stop_time = no_value;  ///< of the last outflow, where it has stopped or emptied, s
 };
 /// The flow has stopped if over three (D/g)^½ before the end, in each (D/g)^½ of them, less passed than a hundredth of
 /// the larger of its largest mean over as long and the analytical estimate. \pre the run has an outlet
@@ -98,7 +98,7 @@ double period_of_discharge(const HopperRun& run, const Window& window);
 double crossing_period_of_discharge(const HopperRun& run, const Window& window);
 
 struct MaxMean {
-  double value = HopperRun::none, time = HopperRun::none;
+  double value = no_value, time = no_value;
 };
 /// The largest of the means over T of the discharge, and its time.
 MaxMean max_discharge(const HopperRun& run, const Window& window);

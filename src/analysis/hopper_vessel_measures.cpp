@@ -17,7 +17,6 @@ namespace {
 using Run = HopperRun;
 using Row = Measure<Run>;
 
-constexpr double none = Run::none;
 constexpr double hardly = 0.1;  // of the mean speed: what is slower rests
 
 bool vessel(const Run& run) {
@@ -74,7 +73,7 @@ std::optional<std::size_t> settled_snapshot(const Run& run) {
 
 double settled(const Run& run, Number number) {
   const auto last = settled_snapshot(run);
-  return last ? run.snapshots.value(*last, number) : none;
+  return last ? run.snapshots.value(*last, number) : no_value;
 }
 
 /// Whether walls bear as much at the last snapshot before the gate opened as when it opened: the bed may still be
@@ -106,7 +105,7 @@ double top_of_bed(const HopperSnapshot& s) {
   std::vector<double> heights;
   for (std::size_t i = 0; i < position.size(); ++i)
     if (!(norm(velocity[i]) > fast)) heights.push_back(position[i].z);
-  return heights.empty() ? none : quantile(heights, 0.995) + 0.5 * s.shape().spacing;
+  return heights.empty() ? no_value : quantile(heights, 0.995) + 0.5 * s.shape().spacing;
 }
 
 /// Whether a band of the walls is upright, in the bed, and the bed reaches its top.
@@ -127,7 +126,7 @@ double vertical_force_beside_walls(const HopperSnapshot& s) {
 }  // namespace
 
 double settled_top(const HopperRun& run) {
-  return is_borne(run) ? settled(run, top_of_bed) : none;
+  return is_borne(run) ? settled(run, top_of_bed) : no_value;
 }
 
 double wall_pressure_ratio(const HopperRun& run, const Window&) {
@@ -137,8 +136,8 @@ double wall_pressure_ratio(const HopperRun& run, const Window&) {
     if (is_filled(band, top))
       of_walls +=
           band.area * load_of(run.series, band, run.gate_time, 0, 0, run.setting.averaging_time).pressure_at_rest;
-  const double of_bed = is_settled_bed_loaded(run) ? settled(run, vertical_force_beside_walls) : none;
-  return of_bed > 0 ? of_walls / of_bed : none;
+  const double of_bed = is_settled_bed_loaded(run) ? settled(run, vertical_force_beside_walls) : no_value;
+  return of_bed > 0 ? of_walls / of_bed : no_value;
 }
 
 double mean_speed_above(double height, const Snapshot& now, std::span<const double> speed) {
@@ -157,7 +156,7 @@ namespace {
 double packing_above_outlet(const HopperSnapshot& s, int layer, bool beside) {
   const HopperShape& shape = s.shape();
   const HopperSetting& of = s.setting;
-  if (!shape.outlet || !(of.outlet_width > 0)) return none;
+  if (!shape.outlet || !(of.outlet_width > 0)) return no_value;
   const double height = of.outlet_width, half_width = 0.5 * (shape.outlet->right - shape.outlet->left);
   const Vector3 middle{shape.outlet->left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
   const double from = beside ? half_width : 0, to = beside ? 2 * half_width : half_width;
@@ -187,7 +186,7 @@ double packing_above_outlet(const HopperSnapshot& s, int layer, bool beside) {
 /// So high above the outlet its width is empty, while grains stand beside it.
 double rathole_height(const HopperSnapshot& s) {
   const double least = 0.3 * s.setting.bed_packing, width = s.setting.outlet_width;
-  if (!s.shape().outlet || !(width > 0)) return none;
+  if (!s.shape().outlet || !(width > 0)) return no_value;
   int high = 0;
   for (int layer = 0; s.shape().outlet->height + layer * width < s.shape().height; ++layer) {
     if (!(packing_above_outlet(s, layer, false) < least)) break;
@@ -206,15 +205,15 @@ double share_in_motion(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double from = first_time_at_or_below(scaled(share, -1), -share_of_regime);
   const std::vector<double>& time = run.snapshots.time();
-  if (!std::isfinite(from) || time.empty()) return none;
+  if (!std::isfinite(from) || time.empty()) return no_value;
   const double at = std::max(from, window.at.value_or(run.end()));
   const std::size_t nearest = nearest_point(time, std::min(at, run.end()));
-  return time[nearest] > flow_end(run).stop_time ? none : run.snapshots.value(nearest, share_that_moves);
+  return time[nearest] > flow_end(run).stop_time ? no_value : run.snapshots.value(nearest, share_that_moves);
 }
 
 double share_that_moves(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
-  if (!before || !s.shape().outlet) return none;
+  if (!before || !s.shape().outlet) return no_value;
   const std::vector<double> speed = mean_speeds(*before, s.now, s.setting.computed);
   const auto positions = s.now.positions();
   const MassRatios ratios = s.now.mass_ratios();
@@ -226,7 +225,7 @@ double share_that_moves(const HopperSnapshot& s) {
     above += ratios[i];
     if (speed[i] > rests) moving += ratios[i];
   }
-  return above > 0 ? moving / above : none;
+  return above > 0 ? moving / above : no_value;
 }
 
 std::vector<Row> hopper_vessel_measures() {

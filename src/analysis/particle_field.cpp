@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "analysis/curve.hpp"
 #include "numerics/neighbourhood.hpp"
 
 namespace talus {
@@ -91,7 +91,7 @@ double ParticleField::value(const Vector3& x, std::span<const double> column) co
     sum += weight * column[j];
     weights += weight;
   });
-  return weights > 0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+  return weights > 0 ? sum / weights : no_value;
 }
 
 Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) const {
@@ -102,8 +102,7 @@ Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) 
     sum += weight * image.vector(column[j]);
     weights += weight;
   });
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return weights > 0 ? (1 / weights) * sum : Vector3{none, none, none};
+  return weights > 0 ? (1 / weights) * sum : Vector3{no_value, no_value, no_value};
 }
 
 std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& centre, double reach) {
@@ -188,7 +187,7 @@ std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now, con
   std::vector<double> speed;
   for (std::size_t i = 0; i < identity.size(); ++i) {
     const auto found = position.find(identity[i]);
-    speed.push_back(found == position.end() ? std::numeric_limits<double>::quiet_NaN()
+    speed.push_back(found == position.end() ? no_value
                                             : displacement(found->second, now.positions()[i], domain) / time);
   }
   return speed;

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "analysis/curve.hpp"
 
 namespace talus {
 
-namespace {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-}
+namespace {}
 
 Residence::Residence(const Snapshot& start, double outlet, std::size_t layers)
     : outlet_(outlet), low_(outlet), count_(layers) {
@@ -22,7 +21,7 @@ Residence::Residence(const Snapshot& start, double outlet, std::size_t layers)
     const double z = position[i].z;
     if (z < outlet) continue;
     const auto layer = step_ > 0 ? static_cast<std::size_t>((z - low_) / step_) : 0;
-    tagged_.emplace(identity[i], Tagged{std::min(layer, count_ - 1), z, none, 0});
+    tagged_.emplace(identity[i], Tagged{std::min(layer, count_ - 1), z, no_value, 0});
   }
 }
 
@@ -62,10 +61,10 @@ std::vector<LayerResidence> Residence::layers() const {
     layers.push_back({.low = low_ + static_cast<double>(n) * step_,
                       .high = low_ + static_cast<double>(n + 1) * step_,
                       .particles = held[n],
-                      .share_out = held[n] > 0 ? static_cast<double>(times.size()) / held[n] : none,
-                      .first = any ? times.front() : none,
-                      .mean = any ? sum / static_cast<double>(times.size()) : none,
-                      .last = any ? times.back() : none});
+                      .share_out = held[n] > 0 ? static_cast<double>(times.size()) / held[n] : no_value,
+                      .first = any ? times.front() : no_value,
+                      .mean = any ? sum / static_cast<double>(times.size()) : no_value,
+                      .last = any ? times.back() : no_value});
   }
   return layers;
 }

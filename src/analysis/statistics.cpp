@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
+
+#include "analysis/curve.hpp"
 
 namespace talus {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sum of (x - x_mean)(y - y_mean).
 double cross_sum(std::span<const double> x, std::span<const double> y) {
@@ -28,17 +27,17 @@ void require_pairs(std::span<const double> x, std::span<const double> y) {
 }  // namespace
 
 double mean(std::span<const double> sample) {
-  if (sample.empty()) return nan;
+  if (sample.empty()) return no_value;
   return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
 }
 
 double standard_deviation(std::span<const double> sample) {
-  if (sample.size() < 2) return nan;
+  if (sample.size() < 2) return no_value;
   return std::sqrt(cross_sum(sample, sample) / static_cast<double>(sample.size() - 1));
 }
 
 double quantile(std::span<const double> sample, double probability) {
-  if (sample.empty() || !(probability >= 0 && probability <= 1)) return nan;
+  if (sample.empty() || !(probability >= 0 && probability <= 1)) return no_value;
   std::vector<double> values(sample.begin(), sample.end());
   const double rank = probability * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(rank);
@@ -61,7 +60,7 @@ double student_t(double freedom) {
 Line fit_line(std::span<const double> x, std::span<const double> y) {
   require_pairs(x, y);
   const double scatter = cross_sum(x, x);
-  if (!(scatter > 0)) return {nan, nan};
+  if (!(scatter > 0)) return {no_value, no_value};
   const double slope = cross_sum(x, y) / scatter;
   const double intercept = mean(y) - slope * mean(x);
   return {intercept, slope};

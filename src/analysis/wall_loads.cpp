@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/wall_loads.hpp"
 
-#include <limits>
-
 #include "analysis/curve.hpp"
 #include "analysis/discharge.hpp"
 
@@ -62,7 +60,6 @@ double momentum_error(const Series& series) {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double peak = 0.5, peaks_every = 0.05, curve_every = 0.25;  // of the averaging time
 
 /// The impulse over the area against the time from the gate's opening, Pa s.
@@ -93,8 +90,8 @@ BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time,
                 .shear_at_rest = mean_rate(impulse.shear, -averaging_time, 0),
                 .pressure_in_flow = mean_rate(impulse.normal, from, to),
                 .shear_in_flow = mean_rate(impulse.shear, from, to),
-                .pressure_largest = none,
-                .time_of_largest = none};
+                .pressure_largest = no_value,
+                .time_of_largest = no_value};
   if (impulse.normal.time.empty()) return load;
   const Curve means =
       mean_rates(impulse.normal, peak * averaging_time, peaks_every * averaging_time, 0, impulse.normal.time.back());

@@ -94,7 +94,7 @@ void print_given(const Subject& s) {
   for (const auto& [table, items] : tables) print_items(table, column, items);
 }
 
-std::vector<ResolvedLine> lines_of(const Subject& s) {
+std::vector<ResolvedLine> key_lines_of(const Subject& s) {
   std::vector<ResolvedLine> table = resolved_table(s.prepared.parameters, s.file);
   for (ResolvedLine& line : table) {
     const auto followed = s.prepared.filled_in.find(line.key);
@@ -105,7 +105,7 @@ std::vector<ResolvedLine> lines_of(const Subject& s) {
 
 void print_every_key(const Subject& s) {
   print("\nIn SI, with every default:\n");
-  const std::vector<ResolvedLine> table = lines_of(s);
+  const std::vector<ResolvedLine> table = key_lines_of(s);
   std::size_t value = 0;
   for (const ResolvedLine& line : table) value = std::max(value, line.value.size() + 1 + line.unit.size());
   value = std::min(value, max_value_width);
@@ -121,7 +121,7 @@ void print_every_key(const Subject& s) {
 /// Keys whose values follow from others, by what they follow from.
 void print_filled_in(const Subject& s) {
   std::map<std::string, std::vector<std::string>> by_origin;
-  for (const ResolvedLine& line : lines_of(s))
+  for (const ResolvedLine& line : key_lines_of(s))
     if (line.origin != "default" && line.origin != "given" && line.origin != "option")
       by_origin[line.origin].push_back(
           fmt::format("{} {}{}{}", line.key, line.value, line.unit.empty() ? "" : " ", line.unit));

@@ -18,6 +18,7 @@
 #include "app/continuum/silo_shape.hpp"
 #include "app/materials/materials.hpp"
 #include "base/text.hpp"
+#include "base/unit.hpp"
 #include "physics/granular/hopper_design.hpp"
 #include "physics/granular/silo.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 
 using granular::HopperShape;
 
-constexpr double degree = std::numbers::pi / 180, margin = 3 * degree, any = 1e12;
+constexpr double margin = 3 * degree, any = 1e12;
 constexpr double of_funnel = 30 * degree;  // a choice, where no half angle gives mass flow
 constexpr std::array shapes = {HopperShape::wedge, HopperShape::cone};
 
@@ -174,21 +175,21 @@ void print_discharge(const DesignInput& input, const Design& design) {
     if (input.outlet > design.outlet[n].widest) return std::string("arches");
     return rate_text(granular::johanson_discharge(shapes[n], design.half_angle[n], input.outlet, length, density,
                                                   gravity, design.outlet[n].width),
-                     HopperRun::none);
+                     no_value);
   };
   const double steep = std::tan(design.half_angle[1]);
   print("\nThrough {}, of a slot per metre:\n", length_text(input.outlet));
   line("discharge, coarse grains", johanson(0, 1), johanson(1, 0),
        "Johanson 1965, mass flow; less near the critical outlet");
   line("the same, by the outlet",
-       rate_text(granular::rectangular_discharge(input.outlet, 1, true, density, gravity, d), HopperRun::none),
+       rate_text(granular::rectangular_discharge(input.outlet, 1, true, density, gravity, d), no_value),
        rate_text(granular::factor_of_cone(steep) * granular::orifice_discharge(input.outlet, density, gravity, d),
-                 HopperRun::none),
+                 no_value),
        "Beverloo 1961, Rose & Tanaka 1959: grains that do not stick together, outlets above 6 diameters");
   line("discharge, fine grains", "",
        design.is_mass_flow(1) ? rate_text(granular::carleton_discharge(design.half_angle[1], input.outlet, density,
                                                                        gravity, p.grains.density, d),
-                                          HopperRun::none)
+                                          no_value)
                               : "funnel",
        "Carleton 1972, mass flow: held back by the air that must enter; grains that do not stick together");
 }

@@ -19,7 +19,7 @@ namespace talus::app {
 
 namespace {
 
-struct Options {
+struct NewOptions {
   const Kind* kind = nullptr;
   std::map<std::string, std::string> texts = {};  // by the names of the questions
   std::map<std::string, bool> flags = {};
@@ -54,7 +54,7 @@ void ask(const Question& question, Answers& answers) {
 }
 
 /// From the options; on a terminal what was not given is asked. \throws InputError with every problem
-Answers answers_of(const Options& options) {
+Answers answers_of(const NewOptions& options) {
   const bool asks = isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
   if (asks && !options.kind->sketch.empty()) print("{}\n", options.kind->sketch);
   Answers answers;
@@ -90,7 +90,7 @@ Answers answers_of(const Options& options) {
   return answers;
 }
 
-ExitStatus write_case(const Options& options) {
+ExitStatus write_case(const NewOptions& options) {
   const std::filesystem::path path = options.out.empty() ? fmt::format("{}.toml", options.kind->name) : options.out;
   if (std::filesystem::exists(path) && !options.overwrite)
     throw InputError({{.where = path.string(), .what = "is there already", .allowed = "another -o, or --overwrite"}});
@@ -115,7 +115,7 @@ void add_new_command(CLI::App& app, Action& action) {
       "written, and is an ordinary text file: change it as you like.\n"
       "  talus new hopper --outlet \"20 mm\" --half-angle \"30 deg\" --air -o wedge.toml");
   for (const Kind& kind : kinds()) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<NewOptions>();
     options->kind = &kind;
     CLI::App* of_kind = command->add_subcommand(std::string(kind.name), std::string(kind.text));
     for (const Question& question : kind.questions) {

@@ -35,7 +35,7 @@ namespace talus::app {
 namespace {
 
 /// What options are bound to; no one reads it: the words are of the options.
-struct Options {
+struct PackageOptions {
   CaseOptions case_options;
   std::string text, out;
   std::vector<std::string> texts;
@@ -43,8 +43,8 @@ struct Options {
   bool flag = false;
 };
 
-CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Options>& options, const std::string& name,
-                      const std::string& text, const std::string& footer) {
+CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<PackageOptions>& options,
+                      const std::string& name, const std::string& text, const std::string& footer) {
   CLI::App* command = app.add_subcommand(name, text);
   command->footer(footer);
   command->callback([command, options, &action] {
@@ -53,7 +53,7 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Optio
   return command;
 }
 
-CLI::Option* add_jobs_option(CLI::App& command, Options& options) {
+CLI::Option* add_jobs_option(CLI::App& command, PackageOptions& options) {
   return command
       .add_option("--jobs", options.number, "runs at a time, each on one thread; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
@@ -293,7 +293,7 @@ ExitStatus answer_question() {
 }  // namespace
 
 void add_ensemble_command(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PackageOptions>();
   CLI::App* command = add_command(
       app, action, options, "ensemble", "run many members of a case: seeds and varied keys",
       "Each member is an ordinary run's folder, FOLDER/GROUP/seed_0001. Beside them: members.csv, quantities.csv "
@@ -326,7 +326,7 @@ void add_ensemble_command(CLI::App& app, Action& action) {
 }
 
 void add_compare_command(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PackageOptions>();
   CLI::App* command = add_command(
       app, action, options, "compare", "compare runs with a reference, or two runs with each other",
       "Against a reference: every row printed, computed, met or not; exit status 1 if one is not met. Two runs: their\n"
@@ -338,7 +338,7 @@ void add_compare_command(CLI::App& app, Action& action) {
 }
 
 void add_calibrate_command(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PackageOptions>();
   CLI::App* command = add_command(
       app, action, options, "calibrate", "make a material file of shear tests, the angle of a heap, or beads",
       "Of each number the value, the interval of 95 % and where it is from; a case takes the file by grains.material.\n"
@@ -362,7 +362,7 @@ void add_calibrate_command(CLI::App& app, Action& action) {
 }
 
 void add_reproduce_command(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PackageOptions>();
   CLI::App* command =
       add_command(app, action, options, "reproduce", "all runs of a paper, and every number it prints beside ours",
                   "Exit status 1 if a row of the paper is not met.");

@@ -13,10 +13,6 @@ namespace {
 
 constexpr int exponent_limit = 100000;  // far outside the range of a double, far inside the range of an int
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 std::string_view take_digits(std::string_view& text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   const std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.begin()));

@@ -9,6 +9,11 @@
 
 namespace talus {
 
+/// Of the ten of ASCII, whatever the locale.
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 /// (-1)^negative * digits * 10^exponent.
 struct Decimal {
   std::string digits = "0";  ///< '0' to '9' only, at least one

@@ -13,6 +13,11 @@ namespace talus {
 /// Exit statuses of every command.
 enum class ExitStatus : int { done = 0, not_met = 1, bad_input = 2, numerical = 3, files = 4, interrupted = 130 };
 
+/// \throws std::invalid_argument if what a function asks of its caller does not hold
+inline void require(bool condition, const char* what) {
+  if (!condition) throw std::invalid_argument(what);
+}
+
 /// One fault of the user's input.
 struct Problem {
   std::string where = {};    ///< file name, or the option ("--set particles.count=x")

@@ -38,6 +38,9 @@ void print_error(fmt::format_string<Arguments...> format, Arguments&&... argumen
 /// Columns of the terminal behind stdout; 100 if it is none.
 std::size_t terminal_width();
 
+/// Without the blanks (space, tab, line ends) at both ends.
+std::string_view trimmed(std::string_view text);
+
 /// A text in lines of at most `width` columns, broken at blanks, each but the first behind `indent` blanks. A word
 /// longer than a line is placed on a line of its own.
 /// \param used columns of the first line that are taken already

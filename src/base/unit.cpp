@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/decimal.hpp"
+#include "base/text.hpp"
 
 namespace talus {
 
@@ -183,10 +184,6 @@ bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) || c == '%' || static_cast<unsigned char>(c) >= 0x80;
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Products, quotients and powers of units. A fault leaves its description in `why`.
 class UnitReader {
  public:
@@ -311,12 +308,6 @@ Scale scale_of(const std::vector<Factor>& factors) {
     scale.dimension.angle += power * unit->dimension.angle;
   }
   return scale;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace

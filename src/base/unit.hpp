@@ -2,11 +2,15 @@
 /// Units at the edge of the program: "200 um", "2500 kg/m3", "45 deg". Inside, every number is SI (angles in radians).
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace talus {
+
+inline constexpr double millimetre = 1e-3;
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// Exponents of metre, kilogram, second and radian.
 struct Dimension {

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/text.hpp"
 #include "io/file.hpp"
 
 namespace talus {
@@ -24,13 +25,6 @@ bool is_bare(std::string_view part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
   });
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)); };
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 std::string child(std::string_view table, std::string_view part) {

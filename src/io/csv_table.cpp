@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t max_problems = 20;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view bare(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\"");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r\"") + 1 - begin);
@@ -29,7 +29,7 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> entries;
   while (true) {
     const std::size_t end = line.find(separator);
-    entries.push_back(trimmed(line.substr(0, end)));
+    entries.push_back(bare(line.substr(0, end)));
     if (end == std::string_view::npos) return entries;
     line.remove_prefix(end + 1);
   }
@@ -70,7 +70,7 @@ class TableReader {
     while (!rest.empty()) {
       ++line_;
       const std::size_t end = rest.find('\n');
-      const std::string_view line = trimmed(rest.substr(0, end));
+      const std::string_view line = bare(rest.substr(0, end));
       rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
       if (line.empty()) continue;
       if (columns_.empty()) {
@@ -112,7 +112,7 @@ class TableReader {
   void read_header(std::string_view line) {
     for (const std::string_view entry : split(line, separator_)) {
       const std::size_t bracket = entry.find('[');
-      const std::string_view written = trimmed(entry.substr(0, bracket));
+      const std::string_view written = bare(entry.substr(0, bracket));
       const ColumnAlias* const alias = alias_of(written);
       const std::string_view name = alias ? alias->means : written;
       Column column{{std::string(name), si_unit(known(name) ? *known(name) : dimension::none), {}}};
@@ -143,7 +143,7 @@ class TableReader {
     const Dimension* const meant = known(column.name);
     if (text.empty() || text.back() != ']')
       return problem(column.written_name, "unit without a closing bracket", "name [unit]");
-    const std::string unit(trimmed(text.substr(0, text.size() - 1)));
+    const std::string unit(bare(text.substr(0, text.size() - 1)));
     if (unit.empty() || unit == "1" || unit == "-") {
       if (meant && *meant != dimension::none)
         problem(column.written_name, fmt::format("needs a unit of {}", dimension_name(*meant)), units_of(*meant));

@@ -118,7 +118,7 @@ std::string example_text(const Parameter& parameter, const ValueType& type) {
     case ValueType::Kind::text:
       return "\"text\"";
     case ValueType::Kind::choice:
-      return quoted(type.choices.front());
+      return talus::quoted(type.choices.front());
   }
   return {};
 }
@@ -164,7 +164,7 @@ std::string toml_text(const Parameter& parameter, const ParameterValue& value) {
     std::string operator()(bool flag) const { return flag ? "true" : "false"; }
     std::string operator()(std::int64_t integer) const { return fmt::format("{}", integer); }
     std::string operator()(double number) const { return number_literal(number, unit); }
-    std::string operator()(const std::string& text) const { return quoted(text); }
+    std::string operator()(const std::string& text) const { return talus::quoted(text); }
     std::string operator()(const std::vector<double>& numbers) const {
       std::vector<std::string> texts;
       for (const double number : numbers) texts.push_back(number_literal(number, unit));
@@ -345,9 +345,9 @@ std::string as_written(const CaseValue& value) {
     std::string operator()(double number) const { return number_text(number); }
     std::string operator()(const std::string& text) const {
       std::size_t length = 60;
-      if (text.size() <= length) return quoted(text);
+      if (text.size() <= length) return talus::quoted(text);
       while ((static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;  // not within a letter of UTF-8
-      return quoted(text.substr(0, length) + "...");
+      return talus::quoted(text.substr(0, length) + "...");
     }
     std::string operator()(const std::vector<CaseValue>& values) const {
       const bool tables = !values.empty() && std::holds_alternative<CaseTable>(values.front().value);

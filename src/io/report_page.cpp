@@ -21,7 +21,6 @@ __asm__(
 // NOLINTNEXTLINE(modernize-avoid-c-arrays): marks of the assembler
 extern "C" const char talus_report_page_begin[], talus_report_page_end[];
 #endif
-#define ZLIB_CONST
 #include <zlib.h>
 
 #include <algorithm>

@@ -19,7 +19,6 @@ namespace talus {
 
 namespace {
 
-const std::string root = "VTKHDF";
 constexpr std::uint8_t vtk_vertex = 1, vtk_triangle = 5;  // vtkCellType.h
 
 /// A column whose entries follow from their numbers.
@@ -39,21 +38,22 @@ ColumnSource made(ColumnSource::Kind kind, Value&& value) {
 void write_cells(hdf5::Writer& file, std::size_t points, std::uint8_t cell_type, std::size_t cells,
                  std::size_t connections, ColumnSource offsets, ColumnSource connectivity) {
   const auto single = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
-  file.group(root);
-  file.attribute(root, "Type", "UnstructuredGrid");
-  file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
-  file.write(root + "/NumberOfPoints", single(points));
-  file.write(root + "/NumberOfCells", single(cells));
-  file.write(root + "/NumberOfConnectivityIds", single(connections));
-  file.write(root + "/Offsets", cells + 1, std::move(offsets));
-  file.write(root + "/Connectivity", connections, std::move(connectivity));
-  file.write(root + "/Types", cells, made(ColumnSource::Kind::byte, [cell_type](std::size_t) { return cell_type; }));
+  file.group(vtkhdf_root);
+  file.attribute(vtkhdf_root, "Type", "UnstructuredGrid");
+  file.attribute(vtkhdf_root, "Version", std::vector<std::int64_t>{1, 0});
+  file.write(vtkhdf_root + "/NumberOfPoints", single(points));
+  file.write(vtkhdf_root + "/NumberOfCells", single(cells));
+  file.write(vtkhdf_root + "/NumberOfConnectivityIds", single(connections));
+  file.write(vtkhdf_root + "/Offsets", cells + 1, std::move(offsets));
+  file.write(vtkhdf_root + "/Connectivity", connections, std::move(connectivity));
+  file.write(vtkhdf_root + "/Types", cells,
+             made(ColumnSource::Kind::byte, [cell_type](std::size_t) { return cell_type; }));
 }
 
 void write_time(hdf5::Writer& file, double time, std::uint64_t step) {
-  file.write(root + "/FieldData/time", std::vector<double>{time}, "s");
-  file.write(root + "/FieldData/TimeValue", std::vector<double>{time}, "s");
-  file.write(root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(step)}, "1");
+  file.write(vtkhdf_root + "/FieldData/time", std::vector<double>{time}, "s");
+  file.write(vtkhdf_root + "/FieldData/TimeValue", std::vector<double>{time}, "s");
+  file.write(vtkhdf_root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(step)}, "1");
 }
 
 }  // namespace
@@ -65,15 +65,15 @@ void write_points(const std::filesystem::path& path, const PointSource& points) 
       made(ColumnSource::Kind::integer, [](std::size_t n) { return static_cast<std::int64_t>(n); });
   write_cells(file, count, vtk_vertex, count, count, numbers, numbers);
 
-  file.group(root + "/PointData");
+  file.group(vtkhdf_root + "/PointData");
   for (const ColumnSource& column : points.columns)
-    file.write(root + "/" + (column.name == "position" ? "Points" : "PointData/" + column.name), count, column);
+    file.write(vtkhdf_root + "/" + (column.name == "position" ? "Points" : "PointData/" + column.name), count, column);
 
   write_time(file, points.time, points.step);
   if (const auto& copies = points.copies) {
-    file.write(root + "/FieldData/sector_copies", std::vector<std::int64_t>{copies->count}, "1");
-    file.write(root + "/FieldData/sector_axis", std::vector<Vector3>{copies->axis}, "m");
-    file.write(root + "/FieldData/sector_identities", std::vector<std::int64_t>{copies->identities}, "1");
+    file.write(vtkhdf_root + "/FieldData/sector_copies", std::vector<std::int64_t>{copies->count}, "1");
+    file.write(vtkhdf_root + "/FieldData/sector_axis", std::vector<Vector3>{copies->axis}, "m");
+    file.write(vtkhdf_root + "/FieldData/sector_identities", std::vector<std::int64_t>{copies->identities}, "1");
   }
   file.save();
 }
@@ -115,19 +115,19 @@ class PointsReader {
   }
 
   void check_kind() {
-    if (!file_.has(root)) return problem("no VTKHDF file: the group 'VTKHDF' is missing");
-    const std::string type = file_.text_attribute(root, "Type");
+    if (!file_.has(vtkhdf_root)) return problem("no VTKHDF file: the group 'VTKHDF' is missing");
+    const std::string type = file_.text_attribute(vtkhdf_root, "Type");
     if (type != "UnstructuredGrid" && type != "PolyData")
       problem("holds '" + type + "', not points", "UnstructuredGrid, PolyData");
-    const std::vector<std::int64_t> version = file_.integer_attribute(root, "Version");
+    const std::vector<std::int64_t> version = file_.integer_attribute(vtkhdf_root, "Version");
     if (version.empty() || version[0] < 1 || version[0] > 2)
       problem(version.empty() ? "has no Version" : fmt::format("has VTKHDF version {}", version[0]), "1 and 2");
-    if (file_.has(root + "/Steps")) problem("holds several times in one file", "one file a time");
-    if (!file_.has(root + "/Points")) problem("has no 'VTKHDF/Points'");
+    if (file_.has(vtkhdf_root + "/Steps")) problem("holds several times in one file", "one file a time");
+    if (!file_.has(vtkhdf_root + "/Points")) problem("has no 'VTKHDF/Points'");
   }
 
   void read_positions() {
-    const std::string name = root + "/Points";
+    const std::string name = vtkhdf_root + "/Points";
     const hdf5::Description description = file_.describe(name);
     if (description.kind != Kind::real || description.shape.size() != 2 || description.shape[1] != 3)
       return problem("'VTKHDF/Points' is not n x 3 reals");
@@ -163,7 +163,7 @@ class PointsReader {
   }
 
   void read_time() {
-    const std::string fields = root + "/FieldData/";
+    const std::string fields = vtkhdf_root + "/FieldData/";
     for (const char* name : {"time", "TimeValue"})
       if (file_.has(fields + name)) {
         const std::vector<double> time = file_.doubles(fields + name);
@@ -178,7 +178,7 @@ class PointsReader {
   }
 
   void read_sector() {
-    const std::string name = root + "/FieldData/sector_";
+    const std::string name = vtkhdf_root + "/FieldData/sector_";
     if (!file_.has(name + "copies")) return;
     constexpr std::int64_t most = std::int64_t{1} << 50;
     const auto number = [&](const char* of) {
@@ -209,7 +209,7 @@ class PointsReader {
   }
 
   hdf5::Reader file_;
-  std::string data_ = root + "/PointData";
+  std::string data_ = vtkhdf_root + "/PointData";
   std::size_t count_ = 0;
   std::vector<Problem> problems_;
   PointSet points_;
@@ -223,15 +223,15 @@ PointSet read_points(const std::filesystem::path& path) {
 
 int read_copies(const std::filesystem::path& path) {
   const hdf5::Reader file(path);
-  const std::string name = root + "/FieldData/sector_copies";
+  const std::string name = vtkhdf_root + "/FieldData/sector_copies";
   const std::vector<std::int64_t> copies = file.has(name) ? file.integers(name) : std::vector<std::int64_t>();
   return copies.size() == 1 ? static_cast<int>(std::clamp<std::int64_t>(copies[0], 1, Sector::max_copies)) : 1;
 }
 
 double read_points_time(const std::filesystem::path& path) {
   const hdf5::Reader file(path);
-  std::vector<double> time = file.real_attribute(root, "time");
-  if (time.empty()) time = file.doubles(root + "/FieldData/TimeValue");
+  std::vector<double> time = file.real_attribute(vtkhdf_root, "time");
+  if (time.empty()) time = file.doubles(vtkhdf_root + "/FieldData/TimeValue");
   if (time.size() != 1) throw FileError(path.string(), "holds no single 'TimeValue'");
   return time[0];
 }
@@ -247,15 +247,15 @@ void write_surface(const std::filesystem::path& path, const SurfaceSnapshot& sna
   const auto source = [](const std::vector<std::int64_t>& numbers) { return source_of({{}, {}, std::span(numbers)}); };
   write_cells(file, snapshot.points.size(), vtk_triangle, snapshot.triangles.size(), connectivity.size(),
               source(offsets), source(connectivity));
-  file.write(root + "/Points", snapshot.points, "m");
-  file.group(root + "/CellData");
+  file.write(vtkhdf_root + "/Points", snapshot.points, "m");
+  file.group(vtkhdf_root + "/CellData");
   for (const GridSnapshot::Column& column : snapshot.columns)
     std::visit(
         [&](const auto& values) {
           if (values.size() != snapshot.triangles.size())
             throw std::invalid_argument(fmt::format("snapshot: column '{}' has {} entries for {} triangles",
                                                     column.name, values.size(), snapshot.triangles.size()));
-          file.write(root + "/CellData/" + column.name, std::span(values), column.unit);
+          file.write(vtkhdf_root + "/CellData/" + column.name, std::span(values), column.unit);
         },
         column.values);
   write_time(file, snapshot.time, snapshot.step);

@@ -14,10 +14,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "numerics/snapshot.hpp"
 
 namespace talus {
+
+inline const std::string vtkhdf_root = "VTKHDF";
 
 /// Writes a snapshot, whole or not at all. The same snapshot gives the same bytes.
 /// \throws FileError with the system's reason

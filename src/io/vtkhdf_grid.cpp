@@ -16,9 +16,7 @@ namespace talus {
 
 namespace {
 
-const std::string root = "VTKHDF";
-
-const std::string point_data = root + "/PointData";
+const std::string point_data = vtkhdf_root + "/PointData";
 
 std::vector<double> numbers(const Vector3& v) {
   return {v.x, v.y, v.z};
@@ -70,19 +68,19 @@ std::vector<Value> of_cells(const GridSnapshot& grid, const std::array<std::size
 
 void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot) {
   hdf5::Writer file(path);
-  file.group(root);
-  file.attribute(root, "Type", "ImageData");
-  file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
+  file.group(vtkhdf_root);
+  file.attribute(vtkhdf_root, "Type", "ImageData");
+  file.attribute(vtkhdf_root, "Version", std::vector<std::int64_t>{1, 0});
   const Points points(snapshot);
   const auto& n = points.count;
   const auto last = [&](std::size_t a) { return static_cast<std::int64_t>(n[a]) - 1; };
-  file.attribute(root, "WholeExtent", std::vector<std::int64_t>{0, last(0), 0, last(1), 0, last(2)});
-  file.attribute(root, "cells", std::vector<std::int64_t>(snapshot.count.begin(), snapshot.count.end()));
-  file.attribute(root, "Origin", numbers(points.origin));
-  file.attribute(root, "Spacing", numbers(snapshot.spacing));
-  file.attribute(root, "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-  file.attribute(root, "time", std::vector<double>{snapshot.time});
-  file.attribute(root, "step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)});
+  file.attribute(vtkhdf_root, "WholeExtent", std::vector<std::int64_t>{0, last(0), 0, last(1), 0, last(2)});
+  file.attribute(vtkhdf_root, "cells", std::vector<std::int64_t>(snapshot.count.begin(), snapshot.count.end()));
+  file.attribute(vtkhdf_root, "Origin", numbers(points.origin));
+  file.attribute(vtkhdf_root, "Spacing", numbers(snapshot.spacing));
+  file.attribute(vtkhdf_root, "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  file.attribute(vtkhdf_root, "time", std::vector<double>{snapshot.time});
+  file.attribute(vtkhdf_root, "step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)});
 
   file.group(point_data);
   const std::array<std::size_t, 3> shape{n[2], n[1], n[0]};
@@ -102,14 +100,16 @@ void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot)
 GridSnapshot read_grid(const std::filesystem::path& path) {
   const hdf5::Reader file(path);
   const auto refuse = [&](const char* what) { throw FileError(path.string(), what); };
-  if (!file.has(root) || file.text_attribute(root, "Type") != "ImageData") refuse("holds no grid of cells");
-  const std::vector<std::int64_t> extent = file.integer_attribute(root, "WholeExtent");
-  const std::vector<double> origin = file.real_attribute(root, "Origin");
-  const std::vector<double> spacing = file.real_attribute(root, "Spacing");
+  if (!file.has(vtkhdf_root) || file.text_attribute(vtkhdf_root, "Type") != "ImageData")
+    refuse("holds no grid of cells");
+  const std::vector<std::int64_t> extent = file.integer_attribute(vtkhdf_root, "WholeExtent");
+  const std::vector<double> origin = file.real_attribute(vtkhdf_root, "Origin");
+  const std::vector<double> spacing = file.real_attribute(vtkhdf_root, "Spacing");
   if (extent.size() != 6 || origin.size() != 3 || spacing.size() != 3) refuse("lacks extent, origin or spacing");
   GridSnapshot snapshot;
   std::array<std::size_t, 3> points{};
-  const std::vector<std::int64_t> cells = file.integer_attribute(root, "cells");  // since 0.5; before, the points
+  const std::vector<std::int64_t> cells =
+      file.integer_attribute(vtkhdf_root, "cells");  // since 0.5; before, the points
   for (std::size_t a = 0; a < 3; ++a) {
     const std::int64_t count = extent[2 * a + 1] - extent[2 * a] + 1;
     points[a] = static_cast<std::size_t>(std::max<std::int64_t>(count, 0));
@@ -137,8 +137,8 @@ GridSnapshot read_grid(const std::filesystem::path& path) {
     }
     snapshot.columns.push_back(std::move(column));
   }
-  const std::vector<double> time = file.real_attribute(root, "time");
-  const std::vector<std::int64_t> step = file.integer_attribute(root, "step");
+  const std::vector<double> time = file.real_attribute(vtkhdf_root, "time");
+  const std::vector<std::int64_t> step = file.integer_attribute(vtkhdf_root, "step");
   if (time.size() != 1 || step.size() != 1) refuse("holds no single time");
   snapshot.time = time[0], snapshot.step = static_cast<std::uint64_t>(step[0]);
   return snapshot;

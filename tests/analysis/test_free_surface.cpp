@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "analysis/particles.hpp"
+#include "base/unit.hpp"
 
 namespace talus {
 namespace {
@@ -16,7 +16,6 @@ using test::box;
 using test::lattice;
 
 constexpr double h = 2e-3, width = 0.2, depth = 0.006, height = 0.2;
-constexpr double degree = std::numbers::pi / 180;
 
 template <class Height>
 FreeSurface surface_of(Height&& z) {

@@ -33,7 +33,7 @@ double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number) {
       {hopper::stress_ratio, n == 0 ? 0.6 : 0.7},
       {hopper::mass, setting().mass()}};
   const auto found = numbers.find(number);
-  return found == numbers.end() ? HopperRun::none : found->second;
+  return found == numbers.end() ? no_value : found->second;
 }
 
 /// Mass leaves at 0.2 kg/s, which swings with a period of 6 ms, from 0.02 s after the opening to 0.3 s; at 0.04 s a
@@ -183,7 +183,7 @@ TEST(Hopper, EachOfSeveralOutletsHasItsQuantities) {
   run.series.columns = {{0, 0.1, 0.2, 0.3, 0.4}, {0, 0, 0.2, 0.2, 0.2}, {0, 0, 0.1, 0.1, 0.1}};
   const auto value = [&](const std::vector<NamedValue>& of, const std::string& name) {
     const auto found = std::find_if(of.begin(), of.end(), [&](const NamedValue& v) { return v.name == name; });
-    return found != of.end() ? found->value : HopperRun::none;
+    return found != of.end() ? found->value : no_value;
   };
   const auto steady = outlet_quantities(run, 0.1, 0.3);
   EXPECT_NEAR(value(steady, "discharge_rate_west"), 0.2, 1e-12);
@@ -193,7 +193,7 @@ TEST(Hopper, EachOfSeveralOutletsHasItsQuantities) {
   EXPECT_TRUE(std::isnan(value(steady, "discharge_rate_beverloo_east")));
   EXPECT_NEAR(value(steady, "particles_across_east"), 0.02 / run.setting.shape.spacing, 1e-12);
   EXPECT_NEAR(value(steady, "grains_across_west"), 0.01 / run.setting.grain_diameter, 1e-9);
-  const auto unsteady = outlet_quantities(run, HopperRun::none, HopperRun::none);
+  const auto unsteady = outlet_quantities(run, no_value, no_value);
   EXPECT_TRUE(std::isnan(value(unsteady, "discharge_rate_west")));
   EXPECT_NEAR(value(unsteady, "discharged_mass_east"), 0.025, 1e-12);
 }

@@ -20,8 +20,6 @@ namespace talus::app {
 
 namespace {
 
-using namespace figure;
-
 /// Speeds of the grains, m/s.
 std::vector<double> speeds_of(const Snapshot& snapshot) {
   std::vector<double> speeds;
@@ -29,18 +27,18 @@ std::vector<double> speeds_of(const Snapshot& snapshot) {
   return speeds;
 }
 
-View view_of(const CloudFrame& frame) {
-  if (frame.motion == cloud::Motion::xy) return view_xy;
-  if (frame.motion == cloud::Motion::xz) return view_xz;
-  return view_oblique(0.6, 0.45);
+figure::View view_of(const CloudFrame& frame) {
+  if (frame.motion == cloud::Motion::xy) return figure::view_xy;
+  if (frame.motion == cloud::Motion::xz) return figure::view_xz;
+  return figure::view_oblique(0.6, 0.45);
 }
 
 /// Across gravity, which points down the page, and along it.
-std::array<View, 2> views_of_a_fall(const Vector3& gravity) {
+std::array<figure::View, 2> views_of_a_fall(const Vector3& gravity) {
   const Vector3 other = std::abs(gravity.x) < 0.9 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
   const Vector3 across = other - dot(other, gravity) * gravity;
   const Vector3 right = (1 / norm(across)) * across, up = -1 * gravity;
-  return {View{right, up, cross(right, up)}, View{right, cross(gravity, right), gravity}};
+  return {figure::View{right, up, cross(right, up)}, figure::View{right, cross(gravity, right), gravity}};
 }
 
 double quantile_along(std::span<const Vector3> position, const Vector3& direction, double probability) {
@@ -50,7 +48,7 @@ double quantile_along(std::span<const Vector3> position, const Vector3& directio
 }
 
 /// A window of the given extent about the cloud's middle, which most of the grains have not left.
-figure::Window follow(std::span<const Vector3> position, const View& view, double half_width, double below,
+figure::Window follow(std::span<const Vector3> position, const figure::View& view, double half_width, double below,
                       double above) {
   const double x = quantile_along(position, view.right, 0.5), y = quantile_along(position, view.up, 0.5);
   return {x - half_width, x + half_width, y - below, y + above};
@@ -62,7 +60,7 @@ figure::Window front_of(std::span<const Vector3> position, const CloudFrame& fra
   if (frame.motion == cloud::Motion::xz) return {front - 180 * a, front + 20 * a, -8 * a, 72 * a};
   const double centre = quantile_along(position, {0, 1, 0}, 0.5);
   if (frame.motion == cloud::Motion::xy) return {front - 180 * a, front + 20 * a, centre - 50 * a, centre + 50 * a};
-  const View view = view_of(frame);
+  const figure::View view = view_of(frame);
   const double x = dot(view.right, {front, centre, 0}), y = dot(view.up, {front, centre, 0});
   return {x - 180 * a, x + 40 * a, y - 45 * a, y + 105 * a};
 }
@@ -84,52 +82,53 @@ struct Frames {
     }
   }
 
-  std::vector<ParticlePicture> pictures(const CloudFrame& frame, const View& view) const {
-    std::vector<ParticlePicture> pictures;
+  std::vector<figure::ParticlePicture> pictures(const CloudFrame& frame, const figure::View& view) const {
+    std::vector<figure::ParticlePicture> pictures;
     for (std::size_t n = 0; n < points.size(); ++n) {
       const Snapshot snapshot = points[n].view();
-      ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", snapshot.time / frame.scales.time()),
-                              .positions = snapshot.positions(),
-                              .radii = snapshot.scalars("radius"),
-                              .view = view,
-                              .length = {frame.scales.mean_radius, "*a*"}};
+      figure::ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", snapshot.time / frame.scales.time()),
+                                      .positions = snapshot.positions(),
+                                      .radii = snapshot.scalars("radius"),
+                                      .view = view,
+                                      .length = {frame.scales.mean_radius, "*a*"}};
       picture.slope = frame.has_slope && frame.motion != cloud::Motion::xy;
       picture.depth = frame.motion == cloud::Motion::xyz;
       if (frame.has_slope)
-        picture.colouring = ByValue{.values = speeds[n],
-                                    .label = "speed",
-                                    .unit = {frame.scales.stokes_speed, "*v*ₛ"},
-                                    .low = 0,
-                                    .high = std::max(speed_max, 1e-12),
-                                    .bar = n + 1 == points.size()};
+        picture.colouring = figure::ByValue{.values = speeds[n],
+                                            .label = "speed",
+                                            .unit = {frame.scales.stokes_speed, "*v*ₛ"},
+                                            .low = 0,
+                                            .high = std::max(speed_max, 1e-12),
+                                            .bar = n + 1 == points.size()};
       pictures.push_back(std::move(picture));
     }
     return pictures;
   }
 };
 
-Figure figure_of(const std::string& title, std::vector<ParticlePicture> pictures) {
-  Figure figure{.title = title};
-  for (ParticlePicture& picture : pictures) figure.panels.emplace_back(std::move(picture));
+figure::Figure figure_of(const std::string& title, std::vector<figure::ParticlePicture> pictures) {
+  figure::Figure figure{.title = title};
+  for (figure::ParticlePicture& picture : pictures) figure.panels.emplace_back(std::move(picture));
   return figure;
 }
 
 /// The whole avalanche, and its front.
-std::vector<std::pair<std::string, Figure>> avalanche_figures(const Frames& frames, const CloudFrame& frame,
-                                                              const std::string& title) {
-  std::vector<ParticlePicture> whole = frames.pictures(frame, view_of(frame));
-  share_scale(whole);
-  std::vector<std::pair<std::string, Figure>> figures;
+std::vector<std::pair<std::string, figure::Figure>> avalanche_figures(const Frames& frames, const CloudFrame& frame,
+                                                                      const std::string& title) {
+  std::vector<figure::ParticlePicture> whole = frames.pictures(frame, view_of(frame));
+  figure::share_scale(whole);
+  std::vector<std::pair<std::string, figure::Figure>> figures;
   figures.emplace_back("frames.png", figure_of(title, std::move(whole)));
-  std::vector<ParticlePicture> front = frames.pictures(frame, view_of(frame));
-  for (ParticlePicture& picture : front) picture.window = front_of(picture.positions, frame);
+  std::vector<figure::ParticlePicture> front = frames.pictures(frame, view_of(frame));
+  for (figure::ParticlePicture& picture : front) picture.window = front_of(picture.positions, frame);
   figures.emplace_back("front.png", figure_of(title + ": the front", std::move(front)));
   return figures;
 }
 
 /// Radii of the grains that are within a distance of the median along a direction; the others are left out of a
 /// picture.
-std::vector<double> radii_of_those_near(const ParticlePicture& picture, const Vector3& direction, double distance) {
+std::vector<double> radii_of_those_near(const figure::ParticlePicture& picture, const Vector3& direction,
+                                        double distance) {
   const double middle = quantile_along(picture.positions, direction, 0.5);
   std::vector<double> radii(picture.radii.begin(), picture.radii.end());
   for (std::size_t i = 0; i < radii.size(); ++i)
@@ -139,23 +138,24 @@ std::vector<double> radii_of_those_near(const ParticlePicture& picture, const Ve
 }
 
 /// A falling cloud from the side, with the grains that it leaves behind, and below that as seen along gravity.
-std::vector<std::pair<std::string, Figure>> fall_figures(Frames& frames, const CloudFrame& frame,
-                                                         const std::string& title) {
+std::vector<std::pair<std::string, figure::Figure>> fall_figures(Frames& frames, const CloudFrame& frame,
+                                                                 const std::string& title) {
   const auto [side, along] = views_of_a_fall(frame.gravity);
   const double radius = 0.5 * (quantile_along(frames.points[0].view().positions(), side.right, 1) -
                                quantile_along(frames.points[0].view().positions(), side.right, 0));
-  std::vector<ParticlePicture> pictures = frames.pictures(frame, side), from_below = frames.pictures(frame, along);
+  std::vector<figure::ParticlePicture> pictures = frames.pictures(frame, side),
+                                       from_below = frames.pictures(frame, along);
   frames.radii_of_cloud.resize(from_below.size());
   for (std::size_t n = 0; n < from_below.size(); ++n) {
     frames.radii_of_cloud[n] = radii_of_those_near(from_below[n], side.up, 2 * radius);
     from_below[n].radii = frames.radii_of_cloud[n];
   }
-  for (ParticlePicture& picture : pictures)
+  for (figure::ParticlePicture& picture : pictures)
     picture.window = follow(picture.positions, side, 2 * radius, 2 * radius, 4 * radius);
-  for (ParticlePicture& picture : from_below)
+  for (figure::ParticlePicture& picture : from_below)
     picture.window = follow(picture.positions, along, 2 * radius, 2 * radius, 2 * radius);
   std::move(from_below.begin(), from_below.end(), std::back_inserter(pictures));
-  Figure figure = figure_of(title, std::move(pictures));
+  figure::Figure figure = figure_of(title, std::move(pictures));
   figure.columns = static_cast<int>(frames.points.size());
   return {{"frames.png", std::move(figure)}};
 }
@@ -174,7 +174,7 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
     for (const auto& [name, figure] :
          frame.has_slope ? avalanche_figures(frames, frame, title) : fall_figures(frames, frame, title)) {
       drawn.push_back(pictures / name);
-      write_png(figure, drawn.back());
+      figure::write_png(figure, drawn.back());
     }
   }
 

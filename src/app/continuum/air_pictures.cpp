@@ -18,8 +18,6 @@ namespace talus::app {
 
 namespace {
 
-using namespace figure;
-
 constexpr std::size_t pictures = 3;
 constexpr double between_arrows = 9;  // units of the page
 
@@ -55,17 +53,17 @@ bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& sett
   std::vector<Layer> layers;
   const std::vector<std::size_t> frames = chosen_snapshots(times, pictures);
   for (const std::size_t n : frames) layers.push_back(middle_layer(read_grid(folder.snapshot(numbers[n], "air"))));
-  Figure figure{.title = title};
+  figure::Figure figure{.title = title};
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const Layer& layer = layers[n];
-    ParticlePicture picture = particle_picture(setting, layer.centre, layer.radius,
-                                               {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
+    figure::ParticlePicture picture = particle_picture(
+        setting, layer.centre, layer.radius, {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
     picture.title = fmt::format("*t* = {:.2f} s", times[frames[n]]);
-    picture.arrows = Arrows{.values = layer.velocity, .spacing = between_arrows};
+    picture.arrows = figure::Arrows{.values = layer.velocity, .spacing = between_arrows};
     figure.panels.emplace_back(std::move(picture));
   }
   figure.columns = static_cast<int>(frames.size());
-  write_png(figure, path);
+  figure::write_png(figure, path);
   return true;
 }
 

@@ -33,7 +33,7 @@ constexpr double to_start = 3;      // times (D/g)^(1/2): grains that have not b
 double value_of(const std::vector<NamedValue>& quantities, std::string_view name) {
   const auto found =
       std::find_if(quantities.begin(), quantities.end(), [&](const NamedValue& q) { return q.name == name; });
-  return found != quantities.end() ? found->value : HopperRun::none;
+  return found != quantities.end() ? found->value : no_value;
 }
 
 std::string formula_of_discharge(const continuum::Layout& layout) {
@@ -58,8 +58,8 @@ std::vector<Answer> answers_of_outlets(const continuum::Layout& layout, const st
     const double rate = value_of(quantities, "discharge_rate_" + outlet.name),
                  hand = value_of(quantities, "discharge_rate_beverloo_" + outlet.name);
     if (!std::isfinite(rate)) continue;
-    answers.push_back({"Steady discharge through " + outlet.name, rate_text(rate, HopperRun::none), {}});
-    if (hand > 0) answers.back().by_hand = rate_text(hand, HopperRun::none);
+    answers.push_back({"Steady discharge through " + outlet.name, rate_text(rate, no_value), {}});
+    if (hand > 0) answers.back().by_hand = rate_text(hand, no_value);
   }
   return answers;
 }
@@ -79,7 +79,7 @@ class FlowAnswers {
     if (const double peak = of("discharge_rate_max"); peak > 0 && discharged() > 1e-9)
       answers.push_back(
           {fmt::format("Peak discharge ({} average)", time_text(setup_.scales.averaging_time)),
-           fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
+           fmt::format("{} after {}", rate_text(peak, no_value), time_text(of("discharge_rate_max_time"))),
            {}});
     answers.push_back({"Emptying time (99 %)",
                        std::isfinite(of("emptying_time")) ? time_text(of("emptying_time")) : "not reached",
@@ -164,7 +164,7 @@ class FlowAnswers {
       answer.answer =
           discharged() < hopper::steady_from ? too_little() : "none: it did not stay within 10 % for long enough";
     if (estimate > 0)
-      answer.by_hand = fmt::format("{} ({})", rate_text(estimate, HopperRun::none), formula_of_discharge(setup_));
+      answer.by_hand = fmt::format("{} ({})", rate_text(estimate, no_value), formula_of_discharge(setup_));
     return answer;
   }
 
@@ -192,7 +192,7 @@ class LoadsOfWall {
   }
 
   double at(std::string_view column, std::size_t row) const {
-    return table_.has(column) ? table_.column(column)[row] : HopperRun::none;
+    return table_.has(column) ? table_.column(column)[row] : no_value;
   }
 
   /// Of the row's band, m.
@@ -308,7 +308,7 @@ std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& qu
   const double measured = value_of(quantities, "wall_pressure_ratio");
   const bool is_measured = std::isfinite(measured);
   return fmt::format("Janssen, K {:.3g} {}, μ {:.3g}", is_measured ? measured : pressure_ratio_at_rest(shape.layout),
-                     is_measured ? "as measured" : "of the moduli", wall ? wall->friction : HopperRun::none);
+                     is_measured ? "as measured" : "of the moduli", wall ? wall->friction : no_value);
 }
 
 /// What inlets were to bring in, kg; nan where one of them is not over. \param end of the run, from the opening of the
@@ -318,7 +318,7 @@ double asked_of_inlets(const continuum::Parameters& p, double end) {
   for (const continuum::Inlet& inlet : p.inlets) {
     const bool is_before =
         inlet.clock == continuum::InletClock::start && p.gate.opens == continuum::GateOpens::when_settled;
-    if (!(is_before ? end > 0 : end >= inlet.end())) return HopperRun::none;
+    if (!(is_before ? end > 0 : end >= inlet.end())) return no_value;
     mass += inlet.rate * (inlet.end() - inlet.from);
   }
   return mass;
@@ -328,7 +328,7 @@ double asked_of_inlets(const continuum::Parameters& p, double end) {
 double rate_of_inlets(const continuum::Parameters& p) {
   double rate = 0;
   for (const continuum::Inlet& inlet : p.inlets) {
-    if (inlet.from != p.inlets[0].from || inlet.end() != p.inlets[0].end()) return HopperRun::none;
+    if (inlet.from != p.inlets[0].from || inlet.end() != p.inlets[0].end()) return no_value;
     rate += inlet.rate;
   }
   return rate;
@@ -356,7 +356,7 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   if (const double rate = value_of(quantities, "throughput"); rate > 0) {
     const double comes = rate_of_inlets(p);
     answers.push_back({"Throughput, steady", rate_text(rate, value_of(quantities, "throughput_error")),
-                       comes > 0 ? rate_text(comes, HopperRun::none) + " (inlets)" : ""});
+                       comes > 0 ? rate_text(comes, no_value) + " (inlets)" : ""});
   }
   if (const double lift = value_of(quantities, "air_lift"); std::isfinite(lift))
     answers.push_back({"Air bears at the end",

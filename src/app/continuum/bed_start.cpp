@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/case/scene.hpp"
+#include "base/unit.hpp"
 #include "io/figure/figure.hpp"
 #include "models/continuum/setup/bed_report.hpp"
 #include "models/continuum/setup/initial.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 using continuum::Layout;
 
-constexpr double millimetre = 1e-3;
 constexpr double half_thickness = 0.51;  // of a section, in sizes of a particle: one layer of a lattice at least
 constexpr figure::View view_yz{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
 

@@ -78,8 +78,7 @@ class Reader {
 void write_surfaces(const std::filesystem::path& path, const HopperSurfaces& surfaces) {
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < surfaces.bin.x.size(); ++n)
-    rows.push_back(
-        {surfaces.bin.x[n], surfaces.bin.z[n], surfaces.hopper.z.empty() ? HopperRun::none : surfaces.hopper.z[n]});
+    rows.push_back({surfaces.bin.x[n], surfaces.bin.z[n], surfaces.hopper.z.empty() ? no_value : surfaces.hopper.z[n]});
   write_table(path, {{"x", "m"}, {"bin_surface", "m"}, {"hopper_surface", "m"}}, rows);
 }
 

@@ -24,13 +24,11 @@ namespace talus::app {
 
 namespace {
 
-using namespace figure;
-
-constexpr Colour dot_colour = rgb(0x5b4a33);
+constexpr figure::Colour dot_colour = figure::rgb(0x5b4a33);
 constexpr std::size_t pictures_of_a_run = 8;
 constexpr int dots_of_particle = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
-const figure::Unit millimetre{1e-3, "mm"};
+const figure::Unit length_unit{1e-3, "mm"};
 
 struct Frames {
   std::vector<std::filesystem::path> paths;
@@ -42,9 +40,9 @@ Frames snapshots_of(const std::filesystem::path& run_folder, const HopperRun& ru
 }
 
 /// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
-Colour colour_of_dots(const HopperShape& s) {
+figure::Colour colour_of_dots(const HopperShape& s) {
   const double dots = dots_of_particle * s.depth / std::pow(s.spacing, 3);  // 1/m^2
-  return with_alpha(dot_colour, std::clamp(0.25 * 18e6 / dots, 0.03, 1.0));
+  return figure::with_alpha(dot_colour, std::clamp(0.25 * 18e6 / dots, 0.03, 1.0));
 }
 
 std::string title_of(double time) {
@@ -62,11 +60,11 @@ double highest(const Snapshot& snapshot) {
 }
 
 /// Walls and plate, not covered by grains; an open face is no line.
-std::vector<Segment> outline(const HopperSetting& setting, double top) {
+std::vector<figure::Segment> outline(const HopperSetting& setting, double top) {
   const HopperShape& s = setting.shape;
   const Box& box = setting.domain.box();
-  const Colour colour = ink;
-  std::vector<Segment> lines;
+  const figure::Colour colour = figure::ink;
+  std::vector<figure::Segment> lines;
   const auto add = [&](int axis, int side, const Vector3& from, const Vector3& to) {
     if (is_mirror(box.face(axis, side))) lines.push_back({.from = from, .to = to, .colour = colour});
   };
@@ -116,10 +114,10 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   const std::vector<Vector3> positions = picked(view.positions(), seen);
   const std::vector<double> packing = picked(view.scalars("packing"), seen);
   const std::vector<double> radii = radii_of(setting, view, seen);
-  ParticlePicture picture =
+  figure::ParticlePicture picture =
       particle_picture(setting, positions, radii, {.values = packing, .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
-  write_png({.title = title, .panels = {picture}}, path);
+  figure::write_png({.title = title, .panels = {picture}}, path);
 }
 
 /// The grains over time, particles as dots.
@@ -144,26 +142,26 @@ void draw_grains(const Frames& frames, const HopperSetting& setting, const std::
                              setting.smoothing_length, view.mass_ratios());
     Domain domain = setting.domain;
     if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
-    dots.push_back(particle_dots(view.positions(), particles.smoothing_length, view.integers("identity"), domain,
-                                 dots_of_particle));
+    dots.push_back(figure::particle_dots(view.positions(), particles.smoothing_length, view.integers("identity"),
+                                         domain, dots_of_particle));
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
   }
-  Figure figure{.title = title};
+  figure::Figure figure{.title = title};
   const bool in_space = !setting.section.empty();
   for (std::size_t n = radii.size(); n < dots.size(); ++n) radii.emplace_back(dots[n].size(), 0.5 * dot_diameter);
   for (std::size_t n = 0; n < chosen.size(); ++n) {
-    ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
-                            .positions = dots[n],
-                            .radii = radii[n],
-                            .view = view_xz,
-                            .colouring = Plain{in_space ? dot_colour : colour_of_dots(setting.shape)},
-                            .segments = outline(setting, top),
-                            .length = millimetre};
+    figure::ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
+                                    .positions = dots[n],
+                                    .radii = radii[n],
+                                    .view = figure::view_xz,
+                                    .colouring = figure::Plain{in_space ? dot_colour : colour_of_dots(setting.shape)},
+                                    .segments = outline(setting, top),
+                                    .length = length_unit};
     picture.window = window_of(setting.shape, top);
     figure.panels.emplace_back(std::move(picture));
   }
   figure.columns = static_cast<int>(std::min<std::size_t>(3, chosen.size()));
-  write_png(figure, path);
+  figure::write_png(figure, path);
 }
 
 /// The section of a vessel while it flows, by speed: what rests is seen. False without two snapshots to tell.
@@ -184,11 +182,11 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
   for (double& v : over_mean) v /= mean;
   const std::vector<double> radii = radii_of(setting, now.view(), seen);
-  ParticlePicture picture = particle_picture(
+  figure::ParticlePicture picture = particle_picture(
       setting, places, radii,
       {.values = over_mean, .label = "speed / mean speed (below 0.1: stagnant)", .low = 0, .high = 0.2});
   picture.title = title_of(frames.time[n]);
-  write_png({.title = title, .panels = {picture}}, path);
+  figure::write_png({.title = title, .panels = {picture}}, path);
   return true;
 }
 
@@ -198,12 +196,12 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
                                          std::span<const double> radii, figure::ByValue values) {
   double top = 0;
   for (const Vector3& x : positions) top = std::max(top, x.z);
-  ParticlePicture picture{.positions = positions,
-                          .radii = radii,
-                          .view = view_xz,
-                          .colouring = std::move(values),
-                          .segments = outline(setting, top),
-                          .length = millimetre};
+  figure::ParticlePicture picture{.positions = positions,
+                                  .radii = radii,
+                                  .view = figure::view_xz,
+                                  .colouring = std::move(values),
+                                  .segments = outline(setting, top),
+                                  .length = length_unit};
   picture.window = window_of(setting.shape, top + 4 * setting.shape.spacing);
   return picture;
 }

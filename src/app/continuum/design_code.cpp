@@ -12,6 +12,7 @@
 #include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "app/materials/materials.hpp"
+#include "base/unit.hpp"
 #include "io/series.hpp"
 
 namespace talus::app {
@@ -22,8 +23,6 @@ using granular::en1991::Limit;
 using granular::en1991::Load;
 using granular::en1991::Values;
 namespace code = granular::en1991;
-
-constexpr double degree = std::numbers::pi / 180;
 
 bool has_hopper_at(const SiloShape& shape, const SiloPiece& wall, double height) {
   return std::any_of(shape.pieces.begin(), shape.pieces.end(), [&](const SiloPiece& piece) {

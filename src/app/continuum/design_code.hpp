@@ -42,10 +42,10 @@ std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, const V
 
 /// Characteristic loads on a band, Pa; nan where the code has no formula.
 struct CodeLoads {
-  double pressure_filling = HopperRun::none, shear_filling = HopperRun::none;
-  double pressure_discharge = HopperRun::none, shear_discharge = HopperRun::none;
-  double pressure_filling_lower = HopperRun::none, pressure_discharge_lower = HopperRun::none;
-  double in_channel = HopperRun::none, beside_channel = HopperRun::none;  ///< of the channel's radii the extremes
+  double pressure_filling = no_value, shear_filling = no_value;
+  double pressure_discharge = no_value, shear_discharge = no_value;
+  double pressure_filling_lower = no_value, pressure_discharge_lower = no_value;
+  double in_channel = no_value, beside_channel = no_value;  ///< of the channel's radii the extremes
 };
 
 /// On upright walls, hoppers under them and level floors between them. \param top of the bed, m \param

@@ -26,7 +26,7 @@ double janssen_at(const SiloShape& shape, double ratio, double top, const Vector
   const double height = place.z;
   if (!wall || wall->bottom > height + p.bed.spacing || top <= height ||
       shape.bottom_of(*wall, top) > height + p.bed.spacing)
-    return HopperRun::none;
+    return no_value;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   double stress = 0;
   for (const SiloShape::Ring& ring : shape.rings_above(*wall, height, top)) {
@@ -50,7 +50,7 @@ PressureByHand pressure_of_hopper(const SiloShape& shape, const SiloPiece& hoppe
   const auto arcs = granular::arc_bearing(hopper.shape(), angle, hopper.friction, internal);
   return {pressure(granular::cone_at_rest(angle, hopper.friction)),
           pressure(granular::cone_in_flow(angle, hopper.friction, internal)),
-          arcs ? granular::arc_pressure(*arcs, weight, height - apex, end, above) : HopperRun::none};
+          arcs ? granular::arc_pressure(*arcs, weight, height - apex, end, above) : no_value};
 }
 
 /// The cone that ends at a round outlet, the pyramid that ends at another.
@@ -127,7 +127,7 @@ double internal_friction_by_hand(const continuum::Parameters& p, granular::Frict
 }
 
 double pressure_ratio_at_rest(const continuum::Layout& layout) {
-  if (!layout.given.law.is<granular::CriticalState>()) return HopperRun::none;
+  if (!layout.given.law.is<granular::CriticalState>()) return no_value;
   const auto& law = layout.given.law.of<granular::CriticalState>();
   const double shear = law.shear_modulus / law.bulk_modulus;
   return (1 - 2.0 / 3 * shear) / (1 + 4.0 / 3 * shear);
@@ -136,7 +136,7 @@ double pressure_ratio_at_rest(const continuum::Layout& layout) {
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
   const VesselPart* cone = emptying_cone(layout);
   return cone ? granular::mass_flow_half_angle(friction_of(layout, *cone), internal_friction_by_hand(layout.given))
-              : HopperRun::none;
+              : no_value;
 }
 
 std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum::Layout& layout) {
@@ -163,7 +163,7 @@ std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum:
 
 double half_angle_of_cone(const continuum::Layout& layout) {
   const VesselPart* cone = emptying_cone(layout);
-  return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
+  return cone ? std::atan(tangent_of(*cone)) : no_value;
 }
 
 Vector3 middle_of(const SiloShape& shape, std::size_t part, double height) {
@@ -195,8 +195,8 @@ PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, 
   if (!on) return {};
   if (on->piece && on->piece->is_hopper()) return pressure_of_hopper(shape, *on->piece, ratio, top, height);
   const double vertical = janssen_at(shape, ratio, top, on->place);
-  if (on->piece) return {ratio * vertical, ratio * vertical, HopperRun::none};
-  return {vertical, HopperRun::none, HopperRun::none};
+  if (on->piece) return {ratio * vertical, ratio * vertical, no_value};
+  return {vertical, no_value, no_value};
 }
 
 }  // namespace talus::app

@@ -53,8 +53,8 @@ std::optional<WallOfBand> wall_of(const SiloShape& shape, const BandOfWall& band
 
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {
-  double at_rest = HopperRun::none, in_flow = HopperRun::none;
-  double in_flow_enstad = HopperRun::none;  ///< of a hopper, beside Walker's
+  double at_rest = no_value, in_flow = no_value;
+  double in_flow_enstad = no_value;  ///< of a hopper, beside Walker's
 };
 
 /// On upright walls K times Janssen's stress; on a level band that stress; on a hopper Walker's pressure and Enstad's

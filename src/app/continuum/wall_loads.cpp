@@ -170,7 +170,7 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
     const bool is_low = wall.name != std::string_view("right") && wall.name != std::string_view("rear");
     const Curve impulse = scaled(given, (is_low ? -1 : 1) / wall.area);
     const Curve means = mean_rates(impulse, 0.5 * t, 0.05 * t, 0, end);
-    const Extremes peak = means.time.empty() ? Extremes{0, HopperRun::none, HopperRun::none} : extremes(means);
+    const Extremes peak = means.time.empty() ? Extremes{0, no_value, no_value} : extremes(means);
     const auto patches = setup.boundary->patches();
     const auto number =
         std::find_if(patches.begin(), patches.end(), [&](const auto& patch) { return patch.name == wall.name; }) -

@@ -15,6 +15,8 @@
 
 namespace talus::app {
 
+inline constexpr double standard_gravity = 9.81;  ///< of the cases that are written, m/s2
+
 /// A number, a word, or yes or no.
 struct Question {
   std::string_view name;      ///< of the option

@@ -16,12 +16,10 @@ namespace talus::app {
 
 namespace {
 
-using namespace figure;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double area_alone = 80000, area_of_many = 32000;  // of a plot, square units
 constexpr double arrow = 15, between_arrows = 8;            // units
-constexpr Colour plain = rgb(0x7d8a99);
+constexpr figure::Colour plain = figure::rgb(0x7d8a99);
 
 /// SI value of one of a unit, and its dimension; "1" and nothing are numbers.
 std::optional<Quantity> one_of(const std::string& unit) {
@@ -60,12 +58,12 @@ Artist::Artist(const std::vector<RunFrames>& runs, std::vector<std::string> name
       low_(infinity),
       high_(-infinity) {}
 
-View Artist::view_of(const Scene& scene) const {
+figure::View Artist::view_of(const Scene& scene) const {
   const std::string_view name = style_.view.empty() ? scene.view : std::string_view(style_.view);
-  if (name == "xy") return view_xy;
-  if (name == "xz") return view_xz;
+  if (name == "xy") return figure::view_xy;
+  if (name == "xz") return figure::view_xz;
   if (name == "yz") return {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
-  return view_oblique(0.6, 0.45);
+  return figure::view_oblique(0.6, 0.45);
 }
 
 void Artist::look_at(std::size_t run, const Frame& frame) {
@@ -86,8 +84,8 @@ void Artist::look_at(std::size_t run, const Frame& frame) {
     arrow_unit_ = frame.arrow_unit;
   }
   const Scene& scene = runs_[run].scene();
-  const ParticlePicture picture{.positions = frame.positions, .radii = frame.radii, .view = view_of(scene)};
-  Window w = window_of(picture);
+  const figure::ParticlePicture picture{.positions = frame.positions, .radii = frame.radii, .view = view_of(scene)};
+  figure::Window w = window_of(picture);
   if (frame.positions.empty() && windows_[run].left < windows_[run].right) return;
   if (frame.positions.empty() && scene.box) w.bottom = w.top = scene.box->first.z;  // no particle is up to anywhere
   if (scene.box && picture.view.up.z == 1) {
@@ -97,23 +95,23 @@ void Artist::look_at(std::size_t run, const Frame& frame) {
     const double room = 0.01 * (w.right - w.left);  // for the walls' lines
     w = {w.left - room, w.right + room, w.bottom - room, w.top + room};
   }
-  Window& all = windows_[run];
+  figure::Window& all = windows_[run];
   all = {std::min(all.left, w.left), std::max(all.right, w.right), std::min(all.bottom, w.bottom),
          std::max(all.top, w.top)};
 }
 
 /// The same extent for all runs, each about its own middle, on its own ground.
-Window Artist::window(std::size_t run) const {
+figure::Window Artist::window(std::size_t run) const {
   double width = 0, height = 0;
-  for (const Window& w : windows_)
+  for (const figure::Window& w : windows_)
     width = std::max(width, w.right - w.left), height = std::max(height, w.top - w.bottom);
-  const Window& w = windows_[run];
+  const figure::Window& w = windows_[run];
   const double left = 0.5 * (w.left + w.right) - 0.5 * width;
   return {left, left + width, w.bottom, w.bottom + height};
 }
 
 double Artist::aspect() const {
-  const Window w = window(0);
+  const figure::Window w = window(0);
   return std::clamp((w.top - w.bottom) / (w.right - w.left), 0.2, 2.5);
 }
 
@@ -121,21 +119,21 @@ int Artist::panels_in_a_row() const {
   return std::clamp(static_cast<int>(std::lround(4 * aspect())), 1, 6);
 }
 
-ParticlePicture Artist::picture(const Panel& panel, bool alone) const {
+figure::ParticlePicture Artist::picture(const Panel& panel, bool alone) const {
   const Scene& scene = runs_[panel.run].scene();
   const Frame& frame = *panel.frame;
-  ParticlePicture picture{.title = title_of(frame.time, runs_[panel.run].times()),
-                          .positions = frame.positions,
-                          .radii = frame.radii,
-                          .view = view_of(scene),
-                          .colouring = Plain{plain},
-                          .window = window(panel.run)};
-  const Window& w = *picture.window;
+  figure::ParticlePicture picture{.title = title_of(frame.time, runs_[panel.run].times()),
+                                  .positions = frame.positions,
+                                  .radii = frame.radii,
+                                  .view = view_of(scene),
+                                  .colouring = figure::Plain{plain},
+                                  .window = window(panel.run)};
+  const figure::Window& w = *picture.window;
   const double size = std::max(w.right - w.left, w.top - w.bottom);
   picture.length = size < 2 ? figure::Unit{1e-3, "mm"} : figure::Unit{1, "m"};
   picture.aspect = aspect();
   picture.slope = scene.slope && picture.view.toward.z < 0.999;
-  picture.depth = axis_of(picture.view.up).name == nullptr;
+  picture.depth = figure::axis_of(picture.view.up).name == nullptr;
   picture.axes = alone;
   // Without particles, too, the picture has the colours and arrows of the others.
   const bool is_empty = frame.positions.empty() && low_ <= high_;
@@ -143,35 +141,36 @@ ParticlePicture Artist::picture(const Panel& panel, bool alone) const {
     double low = style_.range ? style_.range->first : low_ / unit_.value,
            high = style_.range ? style_.range->second : high_ / unit_.value;
     if (!(low < high)) low -= 0.5, high = low + 1;  // all alike
-    picture.colouring = ByValue{.values = frame.values, .unit = unit_, .low = low, .high = high, .bar = false};
+    picture.colouring = figure::ByValue{.values = frame.values, .unit = unit_, .low = low, .high = high, .bar = false};
   }
   if ((!frame.arrow_values.empty() || frame.positions.empty()) && usual_arrow_ > 0)
-    picture.arrows = Arrows{.values = frame.arrow_values,
-                            .positions = frame.arrow_positions,
-                            .unit = {1, arrow_unit_},
-                            .length = arrow / usual_arrow_,
-                            .spacing = between_arrows,
-                            .key = false};
+    picture.arrows = figure::Arrows{.values = frame.arrow_values,
+                                    .positions = frame.arrow_positions,
+                                    .unit = {1, arrow_unit_},
+                                    .length = arrow / usual_arrow_,
+                                    .spacing = between_arrows,
+                                    .key = false};
   if (picture.view.up.z == 1 && picture.view.right.x == 1)
     for (const WallLine& wall : scene.walls)
       if (frame.time < wall.until) picture.segments.push_back({.from = wall.from, .to = wall.to});
   return picture;
 }
 
-Figure Artist::figure(const std::vector<Panel>& panels, int columns) const {
-  Figure figure{.title = style_.title, .columns = columns, .letters = false};
+figure::Figure Artist::figure(const std::vector<Panel>& panels, int columns) const {
+  figure::Figure figure{.title = style_.title, .columns = columns, .letters = false};
   const bool alone = panels.size() == 1;
   for (std::size_t n = 0; n < panels.size(); ++n) {
-    ParticlePicture drawn = picture(panels[n], alone);
+    figure::ParticlePicture drawn = picture(panels[n], alone);
     drawn.scale_bar = n == 0;
     const bool first_of_run = n == 0 || panels[n].run != panels[n - 1].run;
     if (runs_.size() > 1 && first_of_run) drawn.title = names_[panels[n].run] + ", " + drawn.title;
-    if (const auto* colours = std::get_if<ByValue>(&drawn.colouring))
-      figure.bar = ColourBar{*colours->low, *colours->high, axis_title(words(style_.shown.color), unit_.name)};
+    if (const auto* colours = std::get_if<figure::ByValue>(&drawn.colouring))
+      figure.bar =
+          figure::ColourBar{*colours->low, *colours->high, figure::axis_title(words(style_.shown.color), unit_.name)};
     if (drawn.arrows) {
-      const double value = nice_length(1.4 * usual_arrow_);
+      const double value = figure::nice_length(1.4 * usual_arrow_);
       figure.key =
-          ArrowKey{.label = fmt::format("{:g} {}", value, arrow_unit_), .length = value * drawn.arrows->length};
+          figure::ArrowKey{.label = fmt::format("{:g} {}", value, arrow_unit_), .length = value * drawn.arrows->length};
     }
     figure.panels.emplace_back(std::move(drawn));
   }

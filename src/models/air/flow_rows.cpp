@@ -132,11 +132,11 @@ namespace {
 
 /// From the first to the last number of one or two rows that are above 0; empty at the end of the row if none is. Most
 /// rows have no grains, or only in part.
-struct Part {
+struct RowPart {
   std::ptrdiff_t begin, end;
 };
-TALUS_INLINE Part positive_part(std::ptrdiff_t count, const double* one, const double* other) {
-  Part part{0, count};
+TALUS_INLINE RowPart positive_part(std::ptrdiff_t count, const double* one, const double* other) {
+  RowPart part{0, count};
   while (part.begin < count && !(one[part.begin] > 0 || other[part.begin] > 0)) ++part.begin;
   while (part.begin < part.end && !(one[part.end - 1] > 0 || other[part.end - 1] > 0)) --part.end;
   return part;
@@ -148,7 +148,7 @@ TALUS_INLINE double slip_of(const CellRow& row, int axis, std::ptrdiff_t c, doub
 }
 
 template <coupling::DragLaw law>
-TALUS_INLINE void find_drag(Part part, const coupling::DragMedium& given_medium, const CellRow& given,
+TALUS_INLINE void find_drag(RowPart part, const coupling::DragMedium& given_medium, const CellRow& given,
                             double* __restrict drag) {
   const CellRow row = given;
   const coupling::DragMedium medium = given_medium;
@@ -165,7 +165,7 @@ TALUS_INLINE void find_drag(Part part, const coupling::DragMedium& given_medium,
 TALUS_CLONES void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, const coupling::DragMedium& medium,
                                    const CellRow& row, double* __restrict drag) {
   using coupling::DragLaw;
-  const Part part = positive_part(count, row.fraction, row.fraction);
+  const RowPart part = positive_part(count, row.fraction, row.fraction);
   std::fill(drag, drag + part.begin, 0.0), std::fill(drag + part.end, drag + count, 0.0);
   if (law == DragLaw::ergun_wen_yu)
     find_drag<DragLaw::ergun_wen_yu>(part, medium, row, drag);
@@ -176,7 +176,7 @@ TALUS_CLONES void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, 
 TALUS_CLONES void find_slip_of_row(std::ptrdiff_t count, const CellRow& given, double* __restrict x,
                                    double* __restrict y, double* __restrict z, double* __restrict square) {
   const CellRow row = given;
-  const Part part = positive_part(count, row.fraction, row.fraction);
+  const RowPart part = positive_part(count, row.fraction, row.fraction);
   for (double* out : {x, y, z, square})
     std::fill(out, out + part.begin, 0.0), std::fill(out + part.end, out + count, 0.0);
   for (std::ptrdiff_t c = part.begin; c < part.end; ++c) {
@@ -215,7 +215,7 @@ TALUS_CLONES Rates max_rates_of_row(std::ptrdiff_t count, const Vector3& per_wid
 TALUS_CLONES void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before,
                                     const double* drag_here, const double* void_fraction, double* __restrict decay,
                                     double* __restrict mean) {
-  const Part part = positive_part(count, drag_before, drag_here);
+  const RowPart part = positive_part(count, drag_before, drag_here);
   for (std::ptrdiff_t f = 0; f < part.begin; ++f) decay[f] = mean[f] = 1;
   for (std::ptrdiff_t f = part.end; f < count; ++f) decay[f] = mean[f] = 1;
   for (std::ptrdiff_t f = part.begin; f < part.end; ++f) {

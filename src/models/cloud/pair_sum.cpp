@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/instruction_set.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
 #include "physics/hydrodynamics/mobility.hpp"
@@ -30,10 +31,6 @@ SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t 
 std::array<double Vector3::*, 3> axes(Motion motion) {
   if (motion == Motion::xz) return {&Vector3::x, &Vector3::z, &Vector3::y};
   return {&Vector3::x, &Vector3::y, &Vector3::z};
-}
-
-void require(bool condition, const char* what) {
-  if (!condition) throw std::invalid_argument(what);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/error.hpp"
 #include "models/cloud/spectral_sum/engine.hpp"
 
 namespace talus::cloud {
@@ -17,7 +18,7 @@ constexpr double min_cutoff_over_radius = 8;
 
 // Cut-offs that are tried: a third of an octave apart, from the least on.
 constexpr double cutoff_ratio = 1.26;
-constexpr int max_trials = 60;
+constexpr int max_cutoffs = 60;
 
 /// Seconds, on one thread of an AMD Zen 4 or 5 (benchmarks/README.md): their ratios choose.
 struct Costs {
@@ -69,10 +70,6 @@ double near_pairs(const Lattice& lattice, std::span<const Vector3> position) {
   double pairs = 0;
   for (std::size_t n = 0; n < spheres.size(); ++n) pairs += static_cast<double>(spheres[n]) * around[n];
   return pairs;
-}
-
-void require(bool condition, const char* what) {
-  if (!condition) throw std::invalid_argument(what);
 }
 
 double nodes_of(const Lattice& lattice, const SpectralSum::Engine& engine) {
@@ -154,7 +151,7 @@ std::optional<SpectralPlan> SpectralSum::plan(std::span<const Vector3> position)
                     .cost = std::numeric_limits<double>::infinity(),
                     .direct_cost = cost_of_pair(engine.options.precision) * count * count};
   double cutoff = min_cutoff();
-  for (int k = 0; k < max_trials; ++k, cutoff *= cutoff_ratio) {
+  for (int k = 0; k < max_cutoffs; ++k, cutoff *= cutoff_ratio) {
     const Lattice lattice = lattice_over(extent, engine, 0.5 * cutoff);
     const double nodes = nodes_of(lattice, engine);
     if (!(nodes <= max_nodes)) continue;

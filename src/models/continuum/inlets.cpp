@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/unit.hpp"
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/step.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -16,7 +17,6 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
 constexpr double max_along_side = 1e4;  // places
 
 /// Of the lattice, without regard to walls.

@@ -10,14 +10,13 @@
 #include <string>
 #include <type_traits>
 
+#include "base/unit.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/field.hpp"
 
 namespace talus::continuum {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Of the triangle the one it turns into by one angle of the sector, to a millionth of the vessel.
 bool has_copy(const Surface& surface, const CellGrid& middles, const Sector& sector, std::size_t triangle,

@@ -23,7 +23,7 @@ bool find_half_spaces(const Vector3& x, double reach, std::span<const Slab> slab
 namespace {
 
 /// The box around points, one after the other.
-struct Box {
+struct BoxOfPoints {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
 
@@ -55,7 +55,7 @@ TriangleTree::TriangleTree(std::span<const Triangle> triangles) {
 void TriangleTree::find_boxes(std::span<const Triangle> in_order) {
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
-    Box around;
+    BoxOfPoints around;
     if (node.second == 0) {
       for (std::uint32_t t = node.begin; t < node.end; ++t)
         for (const Vector3& corner : in_order[t].corner) around.add(corner);
@@ -102,7 +102,7 @@ std::uint32_t TriangleTree::add(std::span<Middle> middles, std::uint32_t begin, 
   const auto n = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({{}, {}, begin, end, 0});
   if (end - begin <= leaf) return n;
-  Box around;
+  BoxOfPoints around;
   for (const Middle& m : middles.subspan(begin, end - begin)) around.add(m.place);
   const Vector3 extent = around.high - around.low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/unit.hpp"
 #include "physics/granular/silo.hpp"
 
 namespace talus::granular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 constexpr double least_flow_factor = 1.1;
 constexpr double air_density = 1.204, air_viscosity = 1.82e-5;  // SI
 

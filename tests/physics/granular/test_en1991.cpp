@@ -7,10 +7,12 @@
 #include <limits>
 #include <numbers>
 
+#include "base/unit.hpp"
+
 namespace talus::granular::en1991 {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double pi = std::numbers::pi;
 
 Silo round_silo(double diameter, double height) {
   return {0.25 * pi * diameter * diameter, pi * diameter, diameter, height};

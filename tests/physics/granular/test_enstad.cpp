@@ -6,12 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/unit.hpp"
 #include "physics/granular/en1991.hpp"
 
 namespace talus::granular {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, pi = std::numbers::pi, weight = 15e3;
+constexpr double pi = std::numbers::pi, weight = 15e3;
 
 /// What lies in a cone, or in a wedge of unit length, below an arc through the walls at a height above the apex, by
 /// sums of levels. \param arc half its angle

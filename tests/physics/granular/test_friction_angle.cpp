@@ -7,13 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include "base/unit.hpp"
 #include "physics/granular/appendix_b.hpp"
 #include "physics/granular/material_path.hpp"
 
 namespace talus::granular {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Grains without peak, strength at rest and rate, pressed together, then deformed at constant volume until they yield.
 std::vector<SymmetricTensor3<>> yielding(double friction, const Tensor3<>& gradient) {

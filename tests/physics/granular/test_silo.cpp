@@ -4,13 +4,13 @@
 #include <limits>
 #include <numbers>
 
+#include "base/unit.hpp"
+
 #include "physics/granular/silo.hpp"
 
 namespace talus::granular {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(JanssenStress, BeginsAsInALiquidAndTendsToWhatItsWallsLeave) {
   EXPECT_NEAR(janssen_stress(15e3, 0.1, 1e-5), 0.15, 1e-4 * 0.15);

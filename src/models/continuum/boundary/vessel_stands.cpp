@@ -24,12 +24,12 @@ std::size_t set_for(double distance, double margin) {
 }
 
 /// Around some particles and all that they reach.
-struct Box {
+struct Surroundings {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
 
-  Box with(const Vector3& x, double reach) const {
-    Box box = *this;
+  Surroundings with(const Vector3& x, double reach) const {
+    Surroundings box = *this;
     for (int axis = 0; axis < 3; ++axis) {
       box.low[axis] = std::min(low[axis], x[axis] - reach);
       box.high[axis] = std::max(high[axis], x[axis] + reach);
@@ -169,7 +169,8 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
     return 2 * static_cast<std::size_t>(level) +
            set_for(neighbourhood.distance_from_vessel(i) / spacing, margin[i] / spacing);
   };
-  const auto look = [&](std::span<const std::uint32_t> group, const std::array<Box, max_sets_of_points>& boxes) {
+  const auto look = [&](std::span<const std::uint32_t> group,
+                        const std::array<Surroundings, max_sets_of_points>& boxes) {
     for (std::size_t set = 0; set < sets_; ++set)
       if (!boxes[set].is_empty()) around[set].gather(*this, set, boxes[set].low, boxes[set].high);
     for (const std::uint32_t i : group)
@@ -178,17 +179,17 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
       }
   };
   thread_local std::vector<std::uint32_t> group;
-  std::array<Box, max_sets_of_points> boxes;
+  std::array<Surroundings, max_sets_of_points> boxes;
   group.clear();
   for (std::size_t i = chunk * chunk_size; i < std::min(position.size(), (chunk + 1) * chunk_size); ++i) {
     if (!(neighbourhood.distance_from_vessel(i) <= reach(i))) continue;
     const std::size_t set = set_of(i);
-    Box box = boxes[set].with(position[i], reach(i));
+    Surroundings box = boxes[set].with(position[i], reach(i));
     if (box.is_wider_than(widest_group * spacing_ + 2 * reach(i))) {
       look(group, boxes);
       group.clear();
       boxes = {};
-      box = Box{}.with(position[i], reach(i));
+      box = Surroundings{}.with(position[i], reach(i));
     }
     boxes[set] = box;
     group.push_back(static_cast<std::uint32_t>(i));

@@ -16,17 +16,17 @@ namespace {
 constexpr double slack = 1e-6;  // over the extent of the box: coordinates of files are of single precision
 
 /// One of the box's upright faces. Distances are inwards from it.
-struct Side {
+struct BoxFace {
   int axis = 0, side = 0;
   double bound = 0, tolerance = 0;
 
-  Side(const Box& box, int along, int at)
+  BoxFace(const Box& box, int along, int at)
       : axis(along), side(at), bound(box.bound(along, at)), tolerance(slack * box.extent(along)) {}
   int inwards_sign() const { return side == 0 ? 1 : -1; }
   double inwards(const Vector3& x) const { return inwards_sign() * (x[axis] - bound); }
 };
 
-int corners_in(const Triangle& t, const Side& face) {
+int corners_in(const Triangle& t, const BoxFace& face) {
   return static_cast<int>(
       std::count_if(t.corner.begin(), t.corner.end(), [&](const Vector3& x) { return x[face.axis] == face.bound; }));
 }
@@ -44,7 +44,7 @@ void for_each_part(const Triangle& t, int axis, double bound, int way, Visit&& v
 
 /// The triangles without what lies behind a face. Corners that all but lie in it do.
 /// \param whole patches that stay as they are
-std::vector<Triangle> cut_at(const Side& face, const std::vector<Triangle>& triangles,
+std::vector<Triangle> cut_at(const BoxFace& face, const std::vector<Triangle>& triangles,
                              const std::set<std::uint32_t>& whole = {}) {
   std::vector<Triangle> kept;
   kept.reserve(triangles.size());
@@ -61,7 +61,7 @@ std::vector<Triangle> cut_at(const Side& face, const std::vector<Triangle>& tria
 }
 
 /// Those that have an edge in the face and go on from there into the box.
-std::set<std::uint32_t> patches_that_end_at(const Side& face, const std::vector<Triangle>& triangles) {
+std::set<std::uint32_t> patches_that_end_at(const BoxFace& face, const std::vector<Triangle>& triangles) {
   std::set<std::uint32_t> patches;
   for (const Triangle& t : triangles)
     if (corners_in(t, face) == 2) patches.insert(t.patch);
@@ -71,14 +71,14 @@ std::set<std::uint32_t> patches_that_end_at(const Side& face, const std::vector<
 /// Calls visit(triangle) for the parts nearer to a face than `reach` of patches that end at it, but for what lies in
 /// it.
 template <class Visit>
-void for_each_part_near(const Side& face, double reach, const std::vector<Triangle>& triangles, Visit&& visit) {
+void for_each_part_near(const BoxFace& face, double reach, const std::vector<Triangle>& triangles, Visit&& visit) {
   const std::set<std::uint32_t> patches = patches_that_end_at(face, triangles);
   for (const Triangle& t : triangles)
     if (patches.contains(t.patch) && corners_in(t, face) < 3)
       for_each_part(t, face.axis, face.bound + face.inwards_sign() * reach, -face.inwards_sign(), visit);
 }
 
-void add_mirror_images(const Side& face, double reach, std::vector<Triangle>& triangles) {
+void add_mirror_images(const BoxFace& face, double reach, std::vector<Triangle>& triangles) {
   std::vector<Triangle> images;
   for_each_part_near(face, reach, triangles, [&](Triangle part) {
     for (Vector3& x : part.corner) x[face.axis] = 2 * face.bound - x[face.axis];
@@ -89,7 +89,7 @@ void add_mirror_images(const Side& face, double reach, std::vector<Triangle>& tr
 }
 
 /// Patches that reach far enough beyond both faces: their triangles go on there, as those of copies would not.
-std::set<std::uint32_t> patches_that_go_on(const Side& low, const Side& high, double reach,
+std::set<std::uint32_t> patches_that_go_on(const BoxFace& low, const BoxFace& high, double reach,
                                            const std::vector<Triangle>& triangles) {
   std::map<std::uint32_t, std::array<double, 2>> inwards;
   for (const Triangle& t : triangles) {
@@ -104,11 +104,11 @@ std::set<std::uint32_t> patches_that_go_on(const Side& low, const Side& high, do
 }
 
 void add_periodic_copies(const Box& box, int axis, double reach, std::vector<Triangle>& triangles) {
-  const std::array<Side, 2> sides{Side(box, axis, 0), Side(box, axis, 1)};
+  const std::array<BoxFace, 2> sides{BoxFace(box, axis, 0), BoxFace(box, axis, 1)};
   const std::set<std::uint32_t> whole = patches_that_go_on(sides[0], sides[1], reach, triangles);
-  for (const Side& face : sides) triangles = cut_at(face, triangles, whole);
+  for (const BoxFace& face : sides) triangles = cut_at(face, triangles, whole);
   std::vector<Triangle> copies;
-  for (const Side& face : sides)
+  for (const BoxFace& face : sides)
     for_each_part_near(face, reach, triangles, [&](Triangle part) {
       if (whole.contains(part.patch)) return;
       for (Vector3& x : part.corner) x[axis] += face.inwards_sign() * box.extent(axis);
@@ -122,9 +122,9 @@ void add_periodic_copies(const Box& box, int axis, double reach, std::vector<Tri
 std::vector<Triangle> with_walls_beyond_faces(std::vector<Triangle> triangles, const Box& box, double reach) {
   for (const int axis : {0, 1}) {
     for (const int side : {0, 1})
-      if (is_mirror(box.face(axis, side))) triangles = cut_at(Side(box, axis, side), triangles);
+      if (is_mirror(box.face(axis, side))) triangles = cut_at(BoxFace(box, axis, side), triangles);
     for (const int side : {0, 1})
-      if (is_mirror(box.face(axis, side))) add_mirror_images(Side(box, axis, side), reach, triangles);
+      if (is_mirror(box.face(axis, side))) add_mirror_images(BoxFace(box, axis, side), reach, triangles);
     if (box.is_periodic(axis)) add_periodic_copies(box, axis, reach, triangles);
   }
   return triangles;

@@ -15,8 +15,6 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
-
 Vector3 extent(const Parameters& p) {
   return {p.box.width, p.box.depth, p.box.height};
 }

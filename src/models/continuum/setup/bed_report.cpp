@@ -10,6 +10,7 @@
 #include <queue>
 #include <tuple>
 
+#include "base/unit.hpp"
 #include "models/continuum/setup/forecast.hpp"
 #include "models/continuum/setup/vessel_bed.hpp"
 
@@ -17,13 +18,12 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
-constexpr double max_reported = 1e6;         // particles
-constexpr double max_positions = 3e5;        // of a region that is examined
-constexpr double beside = 0.8;               // of a wall, in spacings
-constexpr double margin = 2;                 // of the region around the vessel, in spacings
-constexpr double wide_open = 6;              // in spacings
-constexpr std::size_t max_viewpoints = 200;  // places
+constexpr double max_reported = 1e6;          // particles
+constexpr double max_positions_around = 3e5;  // of a region that is examined
+constexpr double beside = 0.8;                // of a wall, in spacings
+constexpr double margin = 2;                  // of the region around the vessel, in spacings
+constexpr double wide_open = 6;               // in spacings
+constexpr std::size_t max_viewpoints = 200;   // places
 
 std::string place_text(const Vector3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x.x / millimetre, x.y / millimetre, x.z / millimetre);
@@ -133,13 +133,13 @@ bool is_above(const Surface& surface, const LevelOpening& opening, double spacin
   return !surface.blocks(x, opening.middle + Vector3{0, 0, 0.01 * spacing});
 }
 
-/// With particles so large that the region has no more than max_positions.
+/// With particles so large that the region has no more than max_positions_around.
 Surroundings around_bed(const Parameters& p) {
   Parameters q = p;
   q.bed.mass = std::nullopt;
   while (true) {
     Surroundings around(q);
-    if (lattice_of(around.parameters).positions() <= max_positions) return around;
+    if (lattice_of(around.parameters).positions() <= max_positions_around) return around;
     q.bed.spacing *= std::cbrt(2.0);
   }
 }

@@ -10,7 +10,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double max_positions = 2e7;  // of a lattice that is looked at
+constexpr double max_positions_of_filling = 2e7;  // of a lattice that is looked at
 
 Parameters with_layers(const Parameters& p, std::int64_t layers) {
   Parameters q = p;
@@ -25,8 +25,8 @@ std::int64_t max_layers(const Parameters& p) {
   if (!sized) return 0;
   const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
   const double layers = std::floor((top - bed_bottom(p)) / p.bed.spacing + 1e-9);
-  if (!(layers >= 1 && layers < max_positions)) return 0;
-  return lattice_of(with_layers(p, static_cast<std::int64_t>(layers))).positions() <= max_positions
+  if (!(layers >= 1 && layers < max_positions_of_filling)) return 0;
+  return lattice_of(with_layers(p, static_cast<std::int64_t>(layers))).positions() <= max_positions_of_filling
              ? static_cast<std::int64_t>(layers)
              : 0;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/unit.hpp"
 #include "models/continuum/setup/bed.hpp"
 #include "models/continuum/setup/parameters.hpp"
 
@@ -14,7 +15,6 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
 constexpr std::size_t max_told = 10;
 constexpr double min_apart = 0.2;      // in spacings: sheared particles come as near as half a spacing
 constexpr double min_from_wall = 0.3;  // in spacings: particles rest at half of one, and come as near as 0.47

@@ -15,8 +15,8 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double around = 0.6, beside = 0.9, near = 1.2, deep = 1, min_length = 2;  // in spacings
-constexpr double max_positions = 2e5;  // of a lattice; a coarser one reports holes that matter as well
+constexpr double close = 0.6, sideways = 0.9, near = 1.2, deep = 1, min_length = 2;  // in spacings
+constexpr double max_positions_of_rims = 2e5;  // of a lattice; a coarser one reports holes that matter as well
 
 /// A place on a rim.
 struct Sample {
@@ -42,7 +42,7 @@ bool is_closed(const Parameters& p, const Vector3& x) {
 /// Whether a grain comes from one side of the triangle around its edge to the other.
 bool is_way_around(const Parameters& p, const Surface& surface, const Domain& domain, const Vector3& x,
                    const Vector3& normal, const Vector3& outwards) {
-  const Vector3 n = 0.5 * around * p.bed.spacing * normal, out = around * p.bed.spacing * outwards;
+  const Vector3 n = 0.5 * close * p.bed.spacing * normal, out = close * p.bed.spacing * outwards;
   const std::array<Vector3, 4> way = {x - out + n, x + out + n, x + out - n, x - out - n};
   for (std::size_t k = 0; k < way.size(); ++k)
     if (is_closed(p, way[k]) || (k > 0 && (surface.blocks(way[k - 1], way[k]) || domain.blocks(way[k - 1], way[k]))))
@@ -103,7 +103,7 @@ std::vector<OpenRim> rims_below_bed(const Layout& of_case) {
                                [](const VesselPart& v) { return v.shape == VesselShape::stl && !v.gate; });
   if (!any) return {};
   Parameters coarse = of_case.given;
-  while (lattice_of(coarse).positions() > max_positions) coarse.bed.spacing *= 2;
+  while (lattice_of(coarse).positions() > max_positions_of_rims) coarse.bed.spacing *= 2;
   const Layout layout = coarse.bed.spacing > of_case.given.bed.spacing ? Layout(coarse) : of_case;
   const Parameters& p = layout.given;
   double top = 0;
@@ -137,7 +137,7 @@ std::vector<OpenRim> rims_below_bed(const Layout& of_case) {
     Vector3 low{infinity, infinity, infinity}, high = -1.0 * low;
     double length = 0;
     for (const Sample& sample : candidate.open) {
-      const Vector3 side = beside * p.bed.spacing * sample.normal;
+      const Vector3 side = sideways * p.bed.spacing * sample.normal;
       if (has_grains(sample.place + side) == has_grains(sample.place - side)) continue;
       length += 2 * norm(sample.half);
       for (const Vector3& end : {sample.place - sample.half, sample.place + sample.half})

@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "base/unit.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/setup/bed.hpp"
@@ -22,7 +23,6 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
 constexpr double max_particles = 1e9;  // they and their images are numbered with 32 bits
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/unit.hpp"
 #include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/setup/layout.hpp"
 
@@ -17,7 +18,6 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
 constexpr double round_off = 0.02;  // of a polygon from its circle, in spacings
 
 /// A closed line of corners at each of two heights, joined by triangles that face its axis. A corner that two lines
