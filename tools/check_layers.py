@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that src/ keeps to its layers: who may include whom, files of one instruction set, lengths of files.
+"""Checks that src/ keeps to its layers: who may include whom, files of one instruction set, names of files that are
+compiled together, lengths of files.
 
 base < ranks < numerics < physics < models; io and analysis stand on numerics; run on io and analysis; only app sees all.
 numerics, models, run and app know processes by ranks, and MPI is included in its folder petsc/ alone.
@@ -26,6 +27,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 # What a file of one instruction set may include of the system: headers without templates that leak to other files.
 PLAIN_SYSTEM_HEADERS = {"cmath", "cstddef", "cstdint", "type_traits", "immintrin.h", "concepts", "numbers"}
 MESSAGES = re.compile(r"(mpi|petsc\w*|zoltan\w*)\.h$")
+TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
+DEFINITIONS = (  # at the beginning of a line
+    re.compile(r"^(?!return |using )(?:[\w:<>,&*.]+[ &*]+)+(\w+)\(", re.M),
+    re.compile(r"^(?:inline |static )*(?:constexpr|const) [\w:<>,*& ]+?\b(\w+)(?= =|\{|\[|;)", re.M),
+    re.compile(r"^(?:struct|class|enum class|using(?= \w+ =)) (\w+)", re.M),
+)
+ALONE = re.compile(r"_for_set\.cpp$|_measures\.cpp$|/petsc/")  # compiled by themselves
 GENERATED = {"revision.hpp", "material_files.inc"}  # made by the build
 MOST_LINES = 400
 REASON = "longer than 400 lines because"
@@ -94,6 +102,43 @@ def check_instruction_set_files(root):
                 if not system and header.exists() and header not in seen:
                     seen.add(header)
                     todo.append(header)
+    return problems
+
+
+def without_texts(path):
+    return TEXTS.sub("", path.read_text(encoding="utf-8"))
+
+
+def unnamed_names(text):
+    """The functions, constants and types that a file keeps in unnamed namespaces."""
+    names = set()
+    for begin in re.finditer(r"^namespace \{$", text, re.M):
+        depth, end = 1, begin.end()
+        while depth and end < len(text):
+            depth += {"{": 1, "}": -1}.get(text[end], 0)
+            end += 1
+        for pattern in DEFINITIONS:
+            names.update(pattern.findall(text, begin.end(), end))
+    return names
+
+
+def check_unnamed_names(root):
+    """Where the files of a folder are compiled as one (CMAKE_UNITY_BUILD), a name of an unnamed namespace hides a
+    function of that name that a later file includes."""
+    problems, folders = [], {}
+    for path in sorted((root / "src").rglob("*.cpp")):
+        if not ALONE.search(path.as_posix()):
+            folders.setdefault(path.parent, {})[path] = without_texts(path)
+    for files in folders.values():
+        paths = list(files)
+        for n, path in enumerate(paths):
+            for name in sorted(unnamed_names(files[path])):
+                used = re.compile(rf"(?<![\w.:>~]){name}\b(?!\s*=[^=])")
+                declared = re.compile(rf"[\w>\]][&*]* (?<!return )(?<!else )(?<!throw ){name}\b\s*(?:[=({{,;:)\[]|$)|"
+                                      rf"\[[^\]]*\b{name}\b[^\]]*\]|(?:, |\b(?:using|struct|class|enum) ){name}\b(?! *[(,)])")
+                problems += [f"{path.relative_to(root)}:1: {name}, in its unnamed namespace, hides the one that "
+                             f"{later.name} uses; give it another name" for later in paths[n + 1:]
+                             if used.search(files[later]) and not declared.search(files[later])]
     return problems
 
 
@@ -173,6 +218,7 @@ CHECKS = (
     check_messages,
     check_run_names_no_model,
     check_instruction_set_files,
+    check_unnamed_names,
     check_cycles,
     check_app_folders,
     check_lengths,

@@ -45,7 +45,7 @@ def fingerprint(root, build, commands, files):
     return digest.hexdigest()
 
 
-def check(build, path):
+def check(root, build, path):
     """clang-tidy's findings in one file, or an empty text."""
     done = subprocess.run(
         [TIDY, "--quiet", "-p", str(build), f"--config-file={root / '.clang-tidy'}",
@@ -84,7 +84,7 @@ def main():
 
     problems = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for (_, name), found in zip(waiting, pool.map(lambda file: check(build, file[0]), waiting)):
+        for (_, name), found in zip(waiting, pool.map(lambda file: check(root, build, file[0]), waiting)):
             if found:
                 print(found)
                 problems += 1

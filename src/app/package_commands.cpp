@@ -242,7 +242,7 @@ Json answer_of_run(OpenedRun& run, const Json& question) {
 }
 
 /// Quantities of runs over windows of time: {"runs": [{"folder", "questions"}]}; a list of answers a run.
-Json numbers(const Json& question) {
+Json numbers_in(const Json& question) {
   Json all = Json::array();
   for (const Json& asked : question.at("runs")) {
     const auto run = open_run(asked.at("folder").get<std::string>(), OpenedRun::many_times);
@@ -269,7 +269,7 @@ struct Question {
 };
 constexpr Question questions[] = {
     {"plan", plan},         {"begin", begin},           {"claim", claim},          {"points", points},
-    {"measures", measures}, {"quantities", quantities}, {"numbers", numbers},      {"report", report},
+    {"measures", measures}, {"quantities", quantities}, {"numbers", numbers_in},   {"report", report},
     {"material", material}, {"yield-loci", yield_loci}, {"wall-locus", wall_locus}};
 
 ExitStatus answer_question() {

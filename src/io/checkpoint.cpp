@@ -15,7 +15,7 @@ namespace talus {
 
 namespace {
 
-constexpr int format = 1;
+constexpr int checkpoint_format = 1;
 constexpr std::size_t user_block = 512;  // HDF5 looks for its signature at 0, 512, 1024, ...
 
 /// Of the lines before it and what stands behind the user block.
@@ -25,7 +25,7 @@ std::string checksum_line(std::uint32_t sum) {
 
 /// The lines before the checksum.
 std::string head_of(std::uint64_t sequence, std::size_t bytes) {
-  return fmt::format("Talus checkpoint\nformat {}\nsequence {}\nbytes {}\n", format, sequence, bytes);
+  return fmt::format("Talus checkpoint\nformat {}\nsequence {}\nbytes {}\n", checkpoint_format, sequence, bytes);
 }
 
 /// Takes `key` and a number off the front of `text`.
@@ -55,8 +55,8 @@ std::optional<std::uint64_t> verify(const std::filesystem::path& path, std::stri
   if (!rest.starts_with(title)) return damaged("does not begin like a checkpoint");
   rest.remove_prefix(title.size());
   const auto found_format = take_number(rest, "format ");
-  if (found_format && *found_format != format)
-    return damaged(fmt::format("has format {}, this program reads {}", *found_format, format));
+  if (found_format && *found_format != checkpoint_format)
+    return damaged(fmt::format("has format {}, this program reads {}", *found_format, checkpoint_format));
   const auto sequence = take_number(rest, "sequence ");
   const auto bytes = take_number(rest, "bytes ");
   if (!found_format || !sequence || !bytes) return damaged("its first lines are damaged");

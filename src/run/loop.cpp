@@ -71,7 +71,7 @@ void StepGuard::resume(const CheckpointReader& checkpoint) {
 }
 
 /// Wall and processor time of this session on top of those of earlier ones.
-class Clock {
+class RunTimes {
  public:
   void add(double wall, double cpu) { wall_ += wall, cpu_ += cpu; }
   double wall() const { return wall_ + std::chrono::duration<double>(Wall::now() - start_).count(); }
@@ -182,7 +182,7 @@ class LiveLine {
 
 LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers) {
-  Clock clock;
+  RunTimes clock;
   CheckpointFiles checkpoints(folder);
   StepGuard guard;
   SnapshotWriter snapshots(folder, options.snapshot_interval);

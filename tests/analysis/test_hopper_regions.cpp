@@ -13,13 +13,13 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr double spacing = 2e-3;
-const HopperShape shape{0.1, 6e-3, 0.25, HopperShape::Outlet{0.1, 0.03, 0.07}, spacing};
+constexpr double h = 2e-3;
+const HopperShape shape{0.1, 6e-3, 0.25, HopperShape::Outlet{0.1, 0.03, 0.07}, h};
 
 FreeSurface level(double height) {
   FreeSurface surface;
   for (int n = 0; n < 50; ++n) {
-    surface.x.push_back((n + 0.5) * spacing);
+    surface.x.push_back((n + 0.5) * h);
     surface.z.push_back(height);
   }
   return surface;

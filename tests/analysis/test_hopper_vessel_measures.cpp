@@ -13,32 +13,31 @@
 namespace talus {
 namespace {
 
-constexpr double bed_spacing = 5e-3, vessel_width = 0.1, vessel_height = 0.2, outlet = 0.1, gate = 0.1;
+constexpr double h = 5e-3, width = 0.1, height = 0.2, outlet = 0.1, gate = 0.1;
 
 HopperSetting setting() {
-  HopperSetting s{
-      .shape = {vessel_width, vessel_width, vessel_height, HopperShape::Outlet{outlet, 0.04, 0.06}, bed_spacing},
-      .domain = test::box(vessel_width, vessel_width, vessel_height),
-      .particle_mass = 1500 * bed_spacing * bed_spacing * bed_spacing,
-      .particles = 4000,
-      .grain_density = 2500,
-      .grain_diameter = 200e-6,
-      .gravity = 10};
-  s.section = {{Vector3{0, 0, 0}, Vector3{0, 0, vessel_height}}};
+  HopperSetting s{.shape = {width, width, height, HopperShape::Outlet{outlet, 0.04, 0.06}, h},
+                  .domain = test::box(width, width, height),
+                  .particle_mass = 1500 * h * h * h,
+                  .particles = 4000,
+                  .grain_density = 2500,
+                  .grain_diameter = 200e-6,
+                  .gravity = 10};
+  s.section = {{Vector3{0, 0, 0}, Vector3{0, 0, height}}};
   s.outlet_length = 0.02;
   s.bands = {{"wall_1", 0, 0.1, 0.15, 2e-3, 0}, {"wall_2", 0, 0.15, 0.2, 2e-3, 0}, {"floor", 1, 0.1, 0.1, 1e-2, 1}};
   return s;
 }
 
 test::GrainColumns bed(double time) {
-  return {test::lattice(vessel_width, vessel_width, outlet, outlet + 0.075, bed_spacing), 1500, 2500, time};
+  return {test::lattice(width, width, outlet, outlet + 0.075, h), 1500, 2500, time};
 }
 
 TEST(HopperVessel, TheShareThatMovesIsAgainstTheMeanAboveTheOutlet) {
   test::GrainColumns now = bed(gate + 0.2), before = bed(gate + 0.18);
   double middle = 0;
   for (std::size_t i = 0; i < now.position.size(); ++i)
-    if (std::abs(now.position[i].x - 0.5 * vessel_width) < 0.02) before.position[i].z += 1e-3, ++middle;
+    if (std::abs(now.position[i].x - 0.5 * width) < 0.02) before.position[i].z += 1e-3, ++middle;
   const HopperSetting s = setting();
   HopperSnapshot snapshot(s, now.view(), gate);
   EXPECT_TRUE(std::isnan(hopper::share_that_moves(snapshot)));
@@ -197,24 +196,24 @@ TEST(SteadyDischarge, OfATrendIsItsMeanWhereItIsLevel) {
 
 TEST(HopperVessel, AnArchIsThePackingAboveTheOutlet) {
   HopperSetting s = setting();
-  s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * vessel_width;
+  s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * width;
   test::GrainColumns now = bed(gate + 0.2);
   EXPECT_NEAR(hopper::outlet_packing(HopperSnapshot(s, now.view(), gate)), 0.6, 0.25);
-  std::erase_if(now.position, [](const Vector3& x) { return std::abs(x.x - 0.5 * vessel_width) < 0.02; });
+  std::erase_if(now.position, [](const Vector3& x) { return std::abs(x.x - 0.5 * width) < 0.02; });
   const Snapshot places{.time = 1, .columns = {{"position", "m", std::span<const Vector3>(now.position)}}};
   EXPECT_EQ(hopper::outlet_packing(HopperSnapshot(s, places, gate)), 0);
 }
 
 TEST(HopperVessel, PlanesOfSymmetryThroughTheOutletLeaveItsPackingAsItIs) {
   HopperSetting s = setting();
-  s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * vessel_width;
+  s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * width;
   const test::GrainColumns now = bed(gate + 0.2);
   const double whole = hopper::outlet_packing(HopperSnapshot(s, now.view(), gate));
   std::vector<Vector3> quarter;
   for (const Vector3& x : now.position)
-    if (x.x >= 0.5 * vessel_width && x.y >= 0.5 * vessel_width) quarter.push_back(x);
+    if (x.x >= 0.5 * width && x.y >= 0.5 * width) quarter.push_back(x);
   Box box = s.domain.box();
-  box.low.x = box.low.y = 0.5 * vessel_width;
+  box.low.x = box.low.y = 0.5 * width;
   s.domain = Domain(box);
   const Snapshot places{.time = 1, .columns = {{"position", "m", std::span<const Vector3>(quarter)}}};
   EXPECT_NEAR(hopper::outlet_packing(HopperSnapshot(s, places, gate)), whole, 1e-9);
@@ -238,8 +237,7 @@ TEST(HopperVessel, TheRatioOfPressuresIsOfTheBandsThatTheBedFills) {
   beside.setting.bands.push_back(beside.setting.bands.front());
   beside.setting.bands.back().name = "of another bin", beside.setting.bands.back().is_bare = true;
   EXPECT_NEAR(hopper::wall_pressure_ratio(beside, {}), 0.6, 1e-9) << "no grain has touched it";
-  EXPECT_NEAR(value(of, "weight_balance_error_at_rest"),
-              4 / (4000 * 1500 * bed_spacing * bed_spacing * bed_spacing * 10) - 1, 1e-9);
+  EXPECT_NEAR(value(of, "weight_balance_error_at_rest"), 4 / (4000 * 1500 * h * h * h * 10) - 1, 1e-9);
 }
 
 }  // namespace

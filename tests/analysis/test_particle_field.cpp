@@ -13,11 +13,11 @@ namespace {
 using test::box;
 using test::lattice;
 
-constexpr double smoothing = 1e-2;
+constexpr double h = 1e-2;
 
 TEST(ParticleField, DepositsTheLatticesPackingUpToTheWalls) {
-  const auto points = lattice(0.1, 0.03, 0, 0.1, smoothing);
-  const ParticleField field(test::particles(points, smoothing), box(0.1, 0.03, 0.2));
+  const auto points = lattice(0.1, 0.03, 0, 0.1, h);
+  const ParticleField field(test::particles(points, h), box(0.1, 0.03, 0.2));
   // The kernel's sum over a lattice is 1 to 2 % wherever one looks; corners, with images of images, are no exception.
   for (const Vector3& x : {Vector3{0.05, 0.015, 0.05},
                            {0.055, 0.015, 0.055},
@@ -31,8 +31,8 @@ TEST(ParticleField, DepositsTheLatticesPackingUpToTheWalls) {
 }
 
 TEST(ParticleField, InterpolatesLinearFields) {
-  const auto points = lattice(0.1, 0.05, 0, 0.1, smoothing);
-  const ParticleField field(test::particles(points, smoothing), box(0.1, 0.05, 0.2));
+  const auto points = lattice(0.1, 0.05, 0, 0.1, h);
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   std::vector<double> constant(points.size(), 7.5), stress;
   for (const Vector3& x : points) stress.push_back(1200 * (1 - x.z / 0.1) + 300 * x.x / 0.1);
   EXPECT_NEAR(field.value({0.0431, 0.021, 0.0387}, constant), 7.5, 1e-12);
@@ -45,8 +45,8 @@ TEST(ParticleField, InterpolatesLinearFields) {
 }
 
 TEST(ParticleField, TurnsVectorsOfImages) {
-  const auto points = lattice(0.1, 0.05, 0, 0.1, smoothing);
-  const ParticleField field(test::particles(points, smoothing), box(0.1, 0.05, 0.2));
+  const auto points = lattice(0.1, 0.05, 0, 0.1, h);
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   const std::vector<Vector3> velocity(points.size(), Vector3{1, 2, 3});
   const Vector3 at_left = field.value({0, 0.025, 0.055}, velocity);
   EXPECT_NEAR(at_left.x, 0, 1e-12);
@@ -55,10 +55,10 @@ TEST(ParticleField, TurnsVectorsOfImages) {
 }
 
 TEST(ParticleField, GradientsAreExactForLinearVelocities) {
-  auto points = lattice(0.1, 0.05, 0, 0.1, smoothing);
+  auto points = lattice(0.1, 0.05, 0, 0.1, h);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].x += 2e-3 * std::sin(double(i));  // no lattice
   // y and z only where mirrors agree with the field: away from them
-  const ParticleField field(test::particles(points, smoothing), box(0.1, 0.05, 0.2));
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   std::vector<Vector3> velocity;
   for (const Vector3& x : points) velocity.push_back({2 * x.x - 3 * x.z, 0.5 * x.x + x.y, 4 * x.x - x.y + 6 * x.z});
   std::size_t inner = 0;
@@ -79,13 +79,13 @@ TEST(ParticleField, GradientsAreExactForLinearVelocities) {
 }
 
 TEST(ParticleField, SeesThroughOpenGatesOnly) {
-  const auto points = lattice(0.1, 0.03, 0, 0.1, smoothing);  // below the plate
+  const auto points = lattice(0.1, 0.03, 0, 0.1, h);  // below the plate
   Domain domain = box(0.1, 0.03, 0.3, {test::plate(0.1, 0.1, 0.03, 0.07)});
-  const ParticleField shut(test::particles(points, smoothing), domain);
+  const ParticleField shut(test::particles(points, h), domain);
   EXPECT_EQ(shut.packing({0.05, 0.015, 0.105}), 0);
   EXPECT_NEAR(shut.packing({0.05, 0.015, 0.0999}), 0.6, 0.012) << "a plate mirrors";
   domain.open_gates();
-  const ParticleField open(test::particles(points, smoothing), domain);
+  const ParticleField open(test::particles(points, h), domain);
   EXPECT_GT(open.packing({0.05, 0.015, 0.105}), 0.05);
   EXPECT_NEAR(open.packing({0.05, 0.015, 0.0999}), 0.3, 0.012);
   EXPECT_EQ(open.packing({0.01, 0.015, 0.105}), 0);
@@ -94,21 +94,20 @@ TEST(ParticleField, SeesThroughOpenGatesOnly) {
 /// The gradient at a particle of a lattice, summed over all particles and images.
 Tensor3<> gradient_at(std::size_t i, const std::vector<Vector3>& points, const std::vector<Vector3>& velocity,
                       const Domain& domain) {
-  std::vector<Image> images = domain.images(sph::support * smoothing);
+  std::vector<Image> images = domain.images(sph::support * h);
   images.emplace_back();
   sph::GradientSums<> sums;
   for (const Image& image : images)
     for (std::size_t j = 0; j < points.size(); ++j) {
       const Vector3 place = image.position(points[j]), d = place - points[i];
-      if (norm(d) < sph::support * smoothing && domain.is_visible(points[i], place, image))
-        sums.add(smoothing * smoothing * smoothing, sph::cubic_spline_slope(norm(d), smoothing), d,
-                 image.vector(velocity[j]) - velocity[i]);
+      if (norm(d) < sph::support * h && domain.is_visible(points[i], place, image))
+        sums.add(h * h * h, sph::cubic_spline_slope(norm(d), h), d, image.vector(velocity[j]) - velocity[i]);
     }
   return sph::velocity_gradient(sums);
 }
 
 TEST(VelocityGradients, AreSumsOverAllParticlesAndImages) {
-  auto points = lattice(0.1, 0.02, 0, 0.15, smoothing);  // thin: images of images
+  auto points = lattice(0.1, 0.02, 0, 0.15, h);  // thin: images of images
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = points[i] + 4e-3 * Vector3{std::sin(double(i)), std::cos(3.0 * double(i)), std::sin(5.0 * double(i))};
   std::vector<Vector3> velocity;
@@ -119,7 +118,7 @@ TEST(VelocityGradients, AreSumsOverAllParticlesAndImages) {
   periodic.faces[0] = periodic.faces[1] = FaceKind::periodic;
   for (const Domain& domain : {box(0.1, 0.02, 0.3), box(0.1, 0.02, 0.3, {test::plate(0.1, 0.08, 0.03, 0.07)}),
                                box(0.1, 0.02, 0.3, {Wall("slope", {0, 0, 0.05}, {0.06, 0, 0.11})}), Domain(periodic)}) {
-    const auto gradients = velocity_gradients(test::particles(points, smoothing), domain, taken, velocity);
+    const auto gradients = velocity_gradients(test::particles(points, h), domain, taken, velocity);
     ASSERT_EQ(gradients.size(), taken.size());
     for (std::size_t n = 0; n < taken.size(); ++n) {
       const Tensor3<> a = gradients[n], b = gradient_at(taken[n], points, velocity, domain);
@@ -147,14 +146,13 @@ TEST(ParticleField, ParticlesOfADensity) {
 }
 
 TEST(ParticleField, TheParticlesAroundAPlaceAreEnoughThere) {
-  const auto points = lattice(0.1, 0.03, 0, 0.1, smoothing);
+  const auto points = lattice(0.1, 0.03, 0, 0.1, h);
   const Vector3 place{0.043, 0.011, 0.052};
-  const ParticleField all(test::particles(points, smoothing), box(0.1, 0.03, 0.2));
+  const ParticleField all(test::particles(points, h), box(0.1, 0.03, 0.2));
   std::vector<Vector3> near;
-  for (const std::size_t i : particles_around(points, place, 2 * smoothing)) near.push_back(points[i]);
+  for (const std::size_t i : particles_around(points, place, 2 * h)) near.push_back(points[i]);
   EXPECT_LT(near.size(), points.size() / 4);
-  EXPECT_DOUBLE_EQ(ParticleField(test::particles(near, smoothing), box(0.1, 0.03, 0.2)).packing(place),
-                   all.packing(place));
+  EXPECT_DOUBLE_EQ(ParticleField(test::particles(near, h), box(0.1, 0.03, 0.2)).packing(place), all.packing(place));
 }
 
 }  // namespace

@@ -48,15 +48,15 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-struct ReadChoices {
+struct Read {
   choosing::Parameters parameters;
   std::vector<std::string> problems;
 };
 
-ReadChoices read_choices(const std::string& text, const std::vector<std::string>& options = {}) {
+Read read(const std::string& text, const std::vector<std::string>& options = {}) {
   CaseFile file = CaseFile::from_text(text, "c");
   for (const std::string& option : options) file.set(option);
-  ReadChoices result;
+  Read result;
   ParameterReader reader(file, choosing::renamed);
   for_each_parameter(reader, result.parameters);
   try {
@@ -74,44 +74,43 @@ ParameterList list_of(const choosing::Parameters& parameters) {
 }
 
 TEST(Conditions, AKeyOfAChoiceThatIsNotTakenIsAFault) {
-  EXPECT_THAT(read_choices("cover.sand.wet = true").problems,
+  EXPECT_THAT(read("cover.sand.wet = true").problems,
               ElementsAre("c:1: cover.sand.wet: given, but cover.name is \"none\"; allowed: cover.name = \"sand\""));
-  EXPECT_THAT(read_choices("cover.depth = \"1 m\"").problems,
+  EXPECT_THAT(read("cover.depth = \"1 m\"").problems,
               ElementsAre("c:1: cover.depth: given, but cover.name is \"none\"; allowed: cover.name other than "
                           "\"none\""));
 }
 
 TEST(Conditions, AnOptionThatTakesAnotherChoiceReplacesTheKeysOfTheFormer) {
   const std::string sand = "cover = { name = \"sand\", sand = { wet = true, water = 0.2 } }";
-  EXPECT_THAT(read_choices(sand).problems, IsEmpty());
+  EXPECT_THAT(read(sand).problems, IsEmpty());
   for (const auto& option : {"cover.name=snow", "cover.name=none"}) {
-    const ReadChoices other = read_choices(sand, {option});
+    const Read other = read(sand, {option});
     EXPECT_THAT(other.problems, IsEmpty()) << option;
     EXPECT_EQ(other.parameters.sand.water, 0.1) << option;
   }
   // An inner choice takes its own keys along alone.
-  EXPECT_EQ(read_choices(sand, {"cover.sand.wet=false"}).parameters.sand.water, 0.1);
+  EXPECT_EQ(read(sand, {"cover.sand.wet=false"}).parameters.sand.water, 0.1);
   // What an option gives itself still has to mean something.
-  EXPECT_THAT(read_choices(sand, {"cover.name=snow", "cover.sand.friction=0.5"}).problems,
+  EXPECT_THAT(read(sand, {"cover.name=snow", "cover.sand.friction=0.5"}).problems,
               ElementsAre(HasSubstr("cover.sand.friction: given, but cover.name is \"snow\"")));
 }
 
 TEST(Conditions, ATakenChoiceHasItsKeysWhateverTheirOrder) {
-  const ReadChoices taken =
-      read_choices("[cover.sand]\nwater = 0.2\nwet = true\n[cover]\nname = \"sand\"\ndepth = \"2 m\"\n");
+  const Read taken = read("[cover.sand]\nwater = 0.2\nwet = true\n[cover]\nname = \"sand\"\ndepth = \"2 m\"\n");
   EXPECT_THAT(taken.problems, IsEmpty());
   EXPECT_EQ(taken.parameters.sand.water, 0.2);
   EXPECT_EQ(taken.parameters.depth, 2);
 }
 
 TEST(Conditions, OfSeveralTheOutermostThatFailsIsTold) {
-  EXPECT_THAT(read_choices("cover.sand.water = 0.2").problems, ElementsAre(HasSubstr("but cover.name is \"none\"")));
-  EXPECT_THAT(read_choices("cover.sand.water = 0.2\ncover.name = \"sand\"").problems,
+  EXPECT_THAT(read("cover.sand.water = 0.2").problems, ElementsAre(HasSubstr("but cover.name is \"none\"")));
+  EXPECT_THAT(read("cover.sand.water = 0.2\ncover.name = \"sand\"").problems,
               ElementsAre("c:1: cover.sand.water: given, but cover.sand.wet is false; allowed: cover.sand.wet = true"));
 }
 
 TEST(Conditions, WhatFollowsFromAFaultyChoiceIsNotTold) {
-  EXPECT_THAT(read_choices("cover.name = \"sadn\"\ncover.sand.wet = true\ncover.depth = \"1 m\"").problems,
+  EXPECT_THAT(read("cover.name = \"sadn\"\ncover.sand.wet = true\ncover.depth = \"1 m\"").problems,
               ElementsAre(HasSubstr("c:1: cover.name: \"sadn\"")));
 }
 
@@ -126,8 +125,8 @@ TEST(Conditions, OnlyKeysThatHoldAreOfTheResolvedCaseAndItsFingerprint) {
   p.sand.wet = true;
   const std::string text = resolved_case(list_of(p));
   EXPECT_THAT(text, HasSubstr("[cover.sand]\nwet = true\nwater = 0.9\n"));
-  EXPECT_THAT(read_choices(text).problems, IsEmpty());
-  EXPECT_EQ(read_choices(text).parameters.sand.water, 0.9);
+  EXPECT_THAT(read(text).problems, IsEmpty());
+  EXPECT_EQ(read(text).parameters.sand.water, 0.9);
 }
 
 TEST(Conditions, SchemaAndPageShowTheKeysOfEveryChoice) {
@@ -136,7 +135,7 @@ TEST(Conditions, SchemaAndPageShowTheKeysOfEveryChoice) {
 }
 
 TEST(RenamedKeys, SayWhatStandsInTheirPlace) {
-  EXPECT_THAT(read_choices("depth = \"1 m\"\ncover.form = \"x\"\nshape = 1").problems,
+  EXPECT_THAT(read("depth = \"1 m\"\ncover.form = \"x\"\nshape = 1").problems,
               ElementsAre("c:1: depth: has another name now; allowed: cover.depth",
                           "c:2: cover.form: has another name now; allowed: cover.name = \"sand\"",
                           HasSubstr("c:3: shape: unknown key")));
@@ -144,7 +143,7 @@ TEST(RenamedKeys, SayWhatStandsInTheirPlace) {
 
 TEST(FrictionCoefficient, HintsAtAnAngle) {
   const auto problem = [](const std::string& value) {
-    const ReadChoices result = read_choices("cover.name = \"sand\"\ncover.sand.friction = " + value);
+    const Read result = read("cover.name = \"sand\"\ncover.sand.friction = " + value);
     return result.problems.empty() ? std::string() : result.problems.front();
   };
   EXPECT_THAT(problem("35"), HasSubstr("35 is out of range: 35 looks like an angle in degrees, whose tangent is 0.70"));

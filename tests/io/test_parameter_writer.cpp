@@ -36,7 +36,7 @@ ParameterList list_of(const Case& resolved) {
   return list;
 }
 
-Case read_case(const CaseFile& file) {
+Case read(const CaseFile& file) {
   Case result;
   ParameterReader reader(file);
   for_each_parameter(reader, result.parameters);
@@ -46,7 +46,7 @@ Case read_case(const CaseFile& file) {
 }
 
 Case smallest() {
-  return read_case(CaseFile::from_text(example::minimal_case, "c"));
+  return read(CaseFile::from_text(example::minimal_case, "c"));
 }
 
 /// Numbers compared bit for bit: -0.0 is not 0.0.
@@ -162,7 +162,7 @@ TEST(ResolvedCase, ReadsBackToTheSameBits) {
     p.numerics.temperature_slope = -positive();
     original.run = {positive(), {0.0, positive()}, {any(), 1e300, std::numeric_limits<double>::min(), 3.0}};
     const std::string text = resolved_case(list_of(original));
-    const Case again = read_case(CaseFile::from_text(text, "resolved"));
+    const Case again = read(CaseFile::from_text(text, "resolved"));
     expect_same_bits(original, again);
     EXPECT_EQ(resolved_case(list_of(again)), text);
     EXPECT_EQ(fingerprint(list_of(again)), fingerprint(list_of(original)));
@@ -175,7 +175,7 @@ TEST(ResolvedTable, SaysWhereAValueComesFrom) {
       "title = \"a | b\"\ngravity.origin = [\"1 mm\", \"0 m\", \"-1 m\"]" + std::string(example::minimal_case), "c");
   file.set("slope.angle=30 deg");
   std::vector<std::string> lines;
-  for (const ResolvedLine& line : resolved_table(list_of(read_case(file)), file))
+  for (const ResolvedLine& line : resolved_table(list_of(read(file)), file))
     lines.push_back(line.key + "|" + line.value + "|" + line.unit + "|" + line.origin + "|" + line.text);
   EXPECT_THAT(
       lines,
@@ -203,7 +203,7 @@ TEST(Fingerprint, IsThatOfTheCaseNotOfItsWriting) {
   const std::string one = fingerprint(list_of(smallest()));
   EXPECT_EQ(one.size(), 16u);
   const char* other = "[run]\nend = \"1000 ms\"\n[particles]\nradius = \"0.5 cm\"\nshape = \"circle\"\ncount = 2e3\n";
-  EXPECT_EQ(fingerprint(list_of(read_case(CaseFile::from_text(other, "other")))), one);
+  EXPECT_EQ(fingerprint(list_of(read(CaseFile::from_text(other, "other")))), one);
 
   ParameterList forwards, backwards;
   const Parameter a{"a", {}, {}, ""}, b{"b", {}, {}, ""};

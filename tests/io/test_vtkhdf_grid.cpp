@@ -11,7 +11,7 @@
 namespace talus {
 namespace {
 
-GridSnapshot sample_grid() {
+GridSnapshot sample() {
   GridSnapshot grid{.time = 0.25,
                     .step = 17,
                     .count = {3, 1, 2},
@@ -26,7 +26,7 @@ GridSnapshot sample_grid() {
 
 TEST(VtkHdfGrid, ReadsBackWhatWasWritten) {
   const ScratchFolder folder;
-  const GridSnapshot written = sample_grid();
+  const GridSnapshot written = sample();
   write_grid(folder / "a.vtkhdf", written);
   const GridSnapshot read = read_grid(folder / "a.vtkhdf");
   EXPECT_EQ(read.time, written.time);
@@ -42,7 +42,7 @@ TEST(VtkHdfGrid, ReadsBackWhatWasWritten) {
 
 TEST(VtkHdfGrid, RefusesColumnsThatDoNotFitAndFilesOfAnotherKind) {
   const ScratchFolder folder;
-  GridSnapshot grid = sample_grid();
+  GridSnapshot grid = sample();
   grid.columns.push_back({"short", "1", std::vector<double>{1}});
   EXPECT_THROW(write_grid(folder / "a.vtkhdf", grid), std::invalid_argument);
   const PointSet points{.time = 0, .step = 0, .columns = {{"position", "m", std::vector<Vector3>{{1, 2, 3}}}}};
@@ -51,7 +51,7 @@ TEST(VtkHdfGrid, RefusesColumnsThatDoNotFitAndFilesOfAnotherKind) {
 }
 
 TEST(GridSnapshot, FindsCellsAndColumns) {
-  const GridSnapshot grid = sample_grid();
+  const GridSnapshot grid = sample();
   EXPECT_EQ(grid.cell_at(0, 0.6), 1);
   EXPECT_EQ(grid.cell_at(2, 2.3), 1);
   EXPECT_EQ(grid.cell_at(2, 99), 1);

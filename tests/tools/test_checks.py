@@ -94,6 +94,16 @@ class Layers(Tree):
         self.write("src/run/r.cpp", "\ncloud::Parameters p;\n")
         self.assertRegex(check_layers.check_run_names_no_model(self.root)[0], r"src/run/r.cpp:2: .*cloud")
 
+    def test_an_unnamed_name_that_hides_an_included_one_is_found(self):
+        self.write("src/base/a.hpp", "namespace talus {\ndouble mean(double x);\n}\n")
+        self.write("src/base/b.cpp", "namespace talus {\nnamespace {\ndouble half(double x) {\n  return x / 2;\n}\n"
+                   "double mean(double x) {\n  return half(x);\n}\n}  // namespace\n}\n")
+        used = "namespace talus {\ndouble twice(double x) {\n  return 2 * mean(x);  // half of\n}\n}\n"
+        self.write("src/base/c.cpp", used)
+        self.assertRegex(check_layers.check_unnamed_names(self.root)[0], r"src/base/b.cpp:1: mean.* hides .* c.cpp")
+        self.write("src/base/c.cpp", "namespace {\ndouble mean(double x);\n}\n" + used)
+        self.assertEqual(check_layers.check_unnamed_names(self.root), [])
+
     def test_a_cycle_is_found(self):
         self.write("src/base/c.hpp", '#include "base/d.hpp"\n')
         self.write("src/base/d.hpp", '#include "base/c.hpp"\n')

@@ -40,7 +40,7 @@ struct Limits {
   }
 };
 
-NumericalError::Report report_of(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
+NumericalError::Report report_at(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !limits.allow_density(s, i);
   const double speed = norm(s.velocity[i]);
@@ -76,7 +76,7 @@ std::optional<std::size_t> find_fault(ThreadTeam& team, const Parameters& p, con
 }
 
 NumericalError::Report report_of(const Parameters& p, const Domain& domain, const State& s, double dt, std::size_t i) {
-  return report_of(p, s, Limits(p, domain, s, dt), i);
+  return report_at(p, s, Limits(p, domain, s, dt), i);
 }
 
 }  // namespace talus::continuum

@@ -15,7 +15,7 @@
 namespace talus::app {
 namespace {
 
-constexpr double bulk_weight = 0.6 * 2500 * 9.81, ratio = 0.5, friction = 0.3, bed_top = 0.15;
+constexpr double weight = 0.6 * 2500 * 9.81, ratio = 0.5, friction = 0.3, top = 0.15;
 
 TEST(DischargeByHand, OfAConeIsBeverloosTimesRoseAndTanakas) {
   continuum::Parameters p = small_silo();
@@ -139,8 +139,8 @@ TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
   EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
                    granular::mass_flow_half_angle(friction, internal_friction_by_hand(p)));
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
-  const double above = granular::janssen_stress(bulk_weight, 0.06 / (4 * friction * ratio), bed_top - 0.09);
-  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[10], ratio, bed_top, 0.09).in_flow,
+  const double above = granular::janssen_stress(weight, 0.06 / (4 * friction * ratio), top - 0.09);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[10], ratio, top, 0.09).in_flow,
               granular::cone_in_flow(std::numbers::pi / 6, friction, internal_friction_by_hand(p)).ratio * above, 1e-6);
   p.law = granular::DruckerPrager::Parameters{.friction = 1.5};
   EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 2);
@@ -170,18 +170,18 @@ TEST(PressureByHand, IsJanssensAndWalkers) {
   const continuum::Parameters p = small_silo();
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   const double length = 0.06 / (4 * friction * ratio);
-  const PressureByHand upright = pressure_by_hand(continuum::Layout(p), bands[2], ratio, bed_top, 0.11);
-  EXPECT_NEAR(upright.at_rest, ratio * granular::janssen_stress(bulk_weight, length, bed_top - 0.11), 1e-9);
+  const PressureByHand upright = pressure_by_hand(continuum::Layout(p), bands[2], ratio, top, 0.11);
+  EXPECT_NEAR(upright.at_rest, ratio * granular::janssen_stress(weight, length, top - 0.11), 1e-9);
   EXPECT_EQ(upright.at_rest, upright.in_flow);
-  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[7], ratio, bed_top, 0.16).at_rest))
+  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[7], ratio, top, 0.16).at_rest))
       << "above the bed";
   // At the cone's top the bed above is all that it bears.
-  const double above = granular::janssen_stress(bulk_weight, length, bed_top - 0.09), angle = continuum::half_turn / 6;
-  const PressureByHand cone = pressure_by_hand(continuum::Layout(p), bands[10], ratio, bed_top, 0.09);
+  const double above = granular::janssen_stress(weight, length, top - 0.09), angle = continuum::half_turn / 6;
+  const PressureByHand cone = pressure_by_hand(continuum::Layout(p), bands[10], ratio, top, 0.09);
   EXPECT_NEAR(cone.at_rest, granular::cone_at_rest(angle, friction).ratio * above, 1e-6);
   EXPECT_NEAR(cone.in_flow, granular::cone_in_flow(angle, friction, 30 * continuum::half_turn / 180).ratio * above,
               1e-6);
-  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, bed_top, 0.06).at_rest))
+  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.06).at_rest))
       << "no formula of the lid of a cone";
 }
 
@@ -192,11 +192,11 @@ TEST(PressureByHand, OfAConeIsEnstadsToo) {
   const double angle = continuum::half_turn / 6, apex = 0.09 - 0.03 / std::tan(angle);
   const auto arcs = granular::arc_bearing(2, angle, 0.15, angle);
   ASSERT_TRUE(arcs);
-  const double above = granular::janssen_stress(bulk_weight, 0.06 / (4 * 0.15 * ratio), bed_top - 0.09);
+  const double above = granular::janssen_stress(weight, 0.06 / (4 * 0.15 * ratio), top - 0.09);
   const auto in_flow = [&](std::size_t band, double height) {
-    return pressure_by_hand(continuum::Layout(p), bands[band], ratio, bed_top, height).in_flow_enstad;
+    return pressure_by_hand(continuum::Layout(p), bands[band], ratio, top, height).in_flow_enstad;
   };
-  EXPECT_NEAR(in_flow(10, 0.08), granular::arc_pressure(*arcs, bulk_weight, 0.08 - apex, 0.09 - apex, above), 1e-6);
+  EXPECT_NEAR(in_flow(10, 0.08), granular::arc_pressure(*arcs, weight, 0.08 - apex, 0.09 - apex, above), 1e-6);
   EXPECT_TRUE(std::isnan(in_flow(2, 0.11))) << "upright walls";
   p.walls.coefficient = 1;
   EXPECT_TRUE(std::isnan(in_flow(10, 0.08))) << "arcs of half a circle";
@@ -209,11 +209,11 @@ TEST(PressureByHand, OfRingsOfOtherFrictionCarriesTheStressOfThoseAbove) {
   p.vessel.back().name = "upper", p.vessel.back().friction = 0.1;
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   const auto length = [](double mu) { return 0.06 / (4 * mu * ratio); };
-  const double above = granular::janssen_stress(bulk_weight, length(0.1), bed_top - 0.12);
-  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[0], ratio, bed_top, 0.1).at_rest,
-              ratio * granular::janssen_stress(bulk_weight, length(0.3), 0.02, above), 1e-9);
-  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, bed_top, 0.13).at_rest,
-              ratio * granular::janssen_stress(bulk_weight, length(0.1), bed_top - 0.13), 1e-9);
+  const double above = granular::janssen_stress(weight, length(0.1), top - 0.12);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[0], ratio, top, 0.1).at_rest,
+              ratio * granular::janssen_stress(weight, length(0.3), 0.02, above), 1e-9);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.13).at_rest,
+              ratio * granular::janssen_stress(weight, length(0.1), top - 0.13), 1e-9);
 }
 
 TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {
@@ -221,7 +221,7 @@ TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   for (continuum::VesselPart& wall : p.vessel) wall.along = continuum::Along::y;
   for (const std::size_t band : {2, 10})
-    EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[band], ratio, bed_top, 0.1).at_rest));
+    EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[band], ratio, top, 0.1).at_rest));
 }
 
 TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
@@ -230,8 +230,8 @@ TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
   p.vessel[2].height = 0.09, p.vessel[2].radius = 0.03;
   p.vessel.erase(p.vessel.begin() + 1);
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
-  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, bed_top, 0.09).at_rest,
-              bulk_weight * (bed_top - 0.09), 1e-9);
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.09).at_rest, weight * (top - 0.09),
+              1e-9);
 }
 
 }  // namespace

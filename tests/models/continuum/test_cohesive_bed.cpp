@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/unit.hpp"
 #include "models/continuum/cases.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/vessel_parts.hpp"
@@ -87,7 +88,7 @@ double speed_on_slope(double tilt, double coefficient, double adhesion) {
 
 TEST(CohesiveBed, SlidesOnItsBaseWhereFrictionAndAdhesionEnd) {
   // tan(beta) = mu + a/(rho g h cos(beta)), a quarter of rho g h: 29.7 degrees.
-  const double degree = M_PI / 180, adhesion = 0.25 * weight_of(8 * spacing);
+  const double adhesion = 0.25 * weight_of(8 * spacing);
   EXPECT_LT(speed_on_slope(29 * degree, 0.3, adhesion), 1e-4);
   EXPECT_GT(speed_on_slope(31 * degree, 0.3, adhesion), 5e-3);
   EXPECT_GT(speed_on_slope(20 * degree, 0.3, 0), 5e-3);

@@ -8,14 +8,13 @@
 #include <stdexcept>
 
 #include "base/random.hpp"
+#include "base/unit.hpp"
 #include "numerics/geometry/domain.hpp"
 
 namespace talus {
 namespace {
 
 using enum FaceKind;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Box box_of(double width, double height, FaceKind side = wall) {
   return {{0, 0, 0}, {width, 5, height}, {side, side, symmetry, symmetry, wall, open}};

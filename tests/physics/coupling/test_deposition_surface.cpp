@@ -10,14 +10,14 @@
 namespace talus::coupling {
 namespace {
 
-constexpr double side = 1.25e-3;
+constexpr double cell = 1.25e-3;
 
 /// A plate at an angle across a box, from wall to wall; particles above it.
 struct SlantedFloor {
   ThreadTeam team{1};
-  Grid grid{.count = {16, 8, 24}, .low = {}, .spacing = {side, side, side}};
+  Grid grid{.count = {16, 8, 24}, .low = {}, .spacing = {cell, cell, cell}};
   Domain domain{{.low = {},
-                 .high = {16 * side, 8 * side, 24 * side},
+                 .high = {16 * cell, 8 * cell, 24 * cell},
                  .faces = {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall,
                            FaceKind::wall}}};
   Surface plate{{{{Vector3{-1e-3, -1e-3, height(-1e-3)}, Vector3{21e-3, -1e-3, height(21e-3)},
@@ -32,11 +32,11 @@ struct SlantedFloor {
   CellField fraction = grid.cell_field();
   FaceField flux = grid.face_field();
 
-  static double height(double x) { return 4.3 * side + 0.6 * x; }
+  static double height(double x) { return 4.3 * cell + 0.6 * x; }
 
   void deposit() {
     velocity.resize(position.size());
-    const std::vector<double> smoothing_length(position.size(), 1.6 * side);
+    const std::vector<double> smoothing_length(position.size(), 1.6 * cell);
     deposition.find_weights(team, position, smoothing_length);
     deposition.deposit(team, 1e-9, {}, velocity, fraction, flux);
   }
@@ -53,8 +53,8 @@ TEST(DepositionBesideASurface, PutsEverythingOnTheParticlesSide) {
   SlantedFloor floor;
   Random random(3);
   for (int n = 0; n < 400; ++n) {
-    const double x = random.uniform(0, 16 * side);
-    floor.position.push_back({x, random.uniform(0, 8 * side), floor.height(x) + random.uniform(0.05, 6) * side});
+    const double x = random.uniform(0, 16 * cell);
+    floor.position.push_back({x, random.uniform(0, 8 * cell), floor.height(x) + random.uniform(0.05, 6) * cell});
   }
   floor.deposit();
   EXPECT_NEAR(floor.total(), 400e-9, 1e-14);
@@ -66,26 +66,26 @@ TEST(DepositionBesideASurface, PutsEverythingOnTheParticlesSide) {
       }
     }
   // Both sides of the box's mirrors are seen: the weights of what is folded back are kept.
-  floor.position = {{0.2 * side, 0.3 * side, floor.height(0.2 * side) + 8 * side}};
+  floor.position = {{0.2 * cell, 0.3 * cell, floor.height(0.2 * cell) + 8 * cell}};
   floor.deposit();
   EXPECT_NEAR(floor.total(), 1e-9, 1e-16);
 }
 
 TEST(DepositionBesideASurface, FarFromItChangesNothing) {
   SlantedFloor floor;
-  floor.position = {{8 * side, 4 * side, floor.height(8 * side) + 6 * side}};
+  floor.position = {{8 * cell, 4 * cell, floor.height(8 * cell) + 6 * cell}};
   floor.deposit();
   const CellField beside = floor.fraction;
   Deposition alone(floor.grid, floor.domain);
-  alone.find_weights(floor.team, floor.position, std::vector<double>{1.6 * side});
+  alone.find_weights(floor.team, floor.position, std::vector<double>{1.6 * cell});
   alone.deposit(floor.team, 1e-9, {}, floor.velocity, floor.fraction, floor.flux);
   EXPECT_EQ(beside, floor.fraction);
 }
 
 TEST(DepositionBesideASurface, WhatSeesNoCellsCentreHasAll) {
   SlantedFloor floor;
-  // Between the plate and the centre of the side below the left face's lowest corner.
-  floor.position = {{0.01 * side, 4 * side, floor.height(0.01 * side) + 1e-9}};
+  // Between the plate and the centre of the cell below the left face's lowest corner.
+  floor.position = {{0.01 * cell, 4 * cell, floor.height(0.01 * cell) + 1e-9}};
   floor.deposit();
   EXPECT_NEAR(floor.total(), 1e-9, 1e-16);
 }

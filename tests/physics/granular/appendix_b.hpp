@@ -11,8 +11,6 @@
 
 namespace talus::granular {
 
-inline constexpr double alpha = 9.8;  ///< stress of the real field over that of the fits'
-
 inline double polynomial(const Piece& piece, double a) {
   return piece.c0 + a * (piece.c1 + a * (piece.c2 + a * piece.c3));
 }
@@ -31,10 +29,6 @@ inline Tensor3<> rotation_about_z(double angle) {
 }
 inline Tensor3<> turned(const Tensor3<>& a, const Tensor3<>& rotation) {
   return rotation * a * transpose(rotation);
-}
-
-inline double mean(const SymmetricTensor3<>& stress) {
-  return trace(stress) / 3;
 }
 
 inline void expect_near(const SymmetricTensor3<>& a, const SymmetricTensor3<>& b, double tolerance) {

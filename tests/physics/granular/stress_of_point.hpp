@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "physics/granular/appendix_b.hpp"
 #include "physics/granular/critical_state.hpp"
 
 namespace talus::granular {
@@ -15,6 +14,9 @@ using Point = MaterialPoint<CriticalState>;
 
 inline constexpr double grain_density = 2500, diameter = 1e-3;  // kg/m^3, m
 
+inline double mean(const SymmetricTensor3<>& stress) {
+  return trace(stress) / 3;
+}
 /// (J_2)^(1/2), Pa.
 inline double shear_of(const SymmetricTensor3<>& stress) {
   return norm(deviator(stress)) / std::sqrt(2.0);

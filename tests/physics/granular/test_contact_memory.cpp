@@ -20,6 +20,9 @@ std::vector<AnyLaw> laws(Volume volume, double compaction = 0) {
           make_law(YuuUmekagePrinted::Parameters{.contact = {.volume = volume, .compaction = compaction}}, 2500),
           make_law(DruckerPrager::Parameters{.contact = {.volume = volume, .compaction = compaction}}, 2500)};
 }
+double mean(const SymmetricTensor3<>& stress) {
+  return trace(stress) / 3;
+}
 double dilation(const AnyLaw& law, const PathPoint& point) {
   const auto slots = history_of(law);
   for (std::size_t k = 0; k < slots.size(); ++k)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/unit.hpp"
 #include "physics/granular/critical_state.hpp"
 
 namespace talus::granular {
@@ -93,7 +94,6 @@ TEST(CriticalStateOnASlope, StartsAtASteeperAngleThanItStops) {
   // every 50 ms, and back once they flow.
   const CriticalState::Parameters p{.bulk_modulus = 1e6, .shear_modulus = 0.6e6, .reference_packing = 0.585};
   Slope slope(p, 200e-6, 0.02, 10);
-  const double degree = M_PI / 180;
   double angle = 20 * degree;
   slope.advance(0.1, angle, 200);
   EXPECT_LT(slope.surface_speed(), 1e-4);

@@ -18,6 +18,9 @@ AnyLaw law(double friction = 0, Volume volume = Volume::density) {
           .friction = friction, .fits = {.tables = Tables::printed}, .contact = {.volume = volume}},
       2500);
 }
+double mean(const SymmetricTensor3<>& stress) {
+  return trace(stress) / 3;
+}
 
 TEST(DruckerPrager, IsElasticWithTheInitialModuli) {
   // lambda = 2.94 MPa, 2G = 5.88 MPa; a friction out of reach.

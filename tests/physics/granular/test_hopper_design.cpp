@@ -13,7 +13,7 @@
 namespace talus::granular {
 namespace {
 
-constexpr double g = 9.81;
+constexpr double gravity = 9.81;
 
 CriticalStateParameters powder(double strength, double growth) {
   return {.static_friction = 0.5, .tensile_strength = strength, .consolidation_strength = growth};
@@ -30,7 +30,7 @@ TEST(HopperDesign, RhodesExample) {
   const double slope = (0.91 - 0.85) / (2.0 - 1.6), strength = (0.85 - slope * 1.6) / (1 - slope * factor);
   EXPECT_GT(strength, 0.85);
   EXPECT_LT(strength, 0.91);
-  EXPECT_NEAR(outlet_factor(HopperShape::cone, theta) * 1e3 * strength / (1300 * g), 0.16, 0.05 * 0.16);
+  EXPECT_NEAR(outlet_factor(HopperShape::cone, theta) * 1e3 * strength / (1300 * gravity), 0.16, 0.05 * 0.16);
 }
 
 TEST(HopperDesign, AWedgeEmptiesAtALargerAngleThanACone) {
@@ -57,7 +57,7 @@ TEST(HopperDesign, FlowFactorsFallWithTheAngleOfFriction) {
 
 TEST(HopperDesign, UniformStrengthArchesByItself) {
   const auto law = powder(400, 0);
-  const double weight = 1500 * g, theta = 20 * degree, phi = std::atan(0.5);
+  const double weight = 1500 * gravity, theta = 20 * degree, phi = std::atan(0.5);
   const double strength = 2 * 0.5 * 400 * std::cos(phi) / (1 - std::sin(phi));
   const CriticalOutlet wedge = critical_outlet(HopperShape::wedge, theta, 0.3, law, weight),
                        cone = critical_outlet(HopperShape::cone, theta, 0.3, law, weight);
@@ -82,7 +82,7 @@ TEST(HopperDesign, TheOutletIsSoughtFromLowStressUpwards) {
   // Weak friction: under large loads delta falls below what any hopper's field bears, under low ones grains flow.
   auto law = powder(100, 0.1);
   law.static_friction = 0.3;
-  const double weight = 1000 * g, theta = 54 * degree;
+  const double weight = 1000 * gravity, theta = 54 * degree;
   EXPECT_TRUE(std::isinf(flow_factor(HopperShape::wedge, theta, 0.2, 15 * degree)));
   const CriticalOutlet outlet = critical_outlet(HopperShape::wedge, theta, 0.2, law, weight);
   EXPECT_LT(outlet.major, 200);
@@ -98,7 +98,7 @@ TEST(HopperDesign, TheOutletIsSoughtFromLowStressUpwards) {
 
 TEST(HopperDesign, TheOutletIsWhereFlowFunctionAndFlowFactorMeet) {
   const auto law = powder(100, 0.1);
-  const double weight = 1000 * g, theta = 20 * degree;
+  const double weight = 1000 * gravity, theta = 20 * degree;
   const CriticalOutlet outlet = critical_outlet(HopperShape::cone, theta, 0.3, law, weight);
   EXPECT_NEAR(outlet.major, outlet.factor * outlet.strength, 1e-6 * outlet.major);
   // Somewhere on the flow function: its closed form at the load that has this sigma_1.
@@ -111,7 +111,7 @@ TEST(HopperDesign, TheOutletIsWhereFlowFunctionAndFlowFactorMeet) {
 }
 
 TEST(HopperDesign, AStraightFlowFunctionThroughTheOriginFlowsOrArchesAnywhere) {
-  const double weight = 1000 * g, theta = 20 * degree;
+  const double weight = 1000 * gravity, theta = 20 * degree;
   EXPECT_EQ(critical_outlet(HopperShape::cone, theta, 0.3, powder(0, 0.02), weight).width, 0);
   CriticalStateParameters sticky = powder(0, 1);
   sticky.static_friction = 0.9;
@@ -131,17 +131,17 @@ TEST(HopperDesign, TheSteadyLocusIsThatOfTheShearTester) {
 
 TEST(HopperDesign, Discharge) {
   const double theta = 20 * degree, width = 0.2, rho = 1000;
-  const double coarse = johanson_discharge(HopperShape::cone, theta, width, 0, rho, g);
-  EXPECT_NEAR(coarse, rho * 0.25 * std::numbers::pi * 0.04 * std::sqrt(0.2 * g / (4 * std::tan(theta))), 1e-9);
-  EXPECT_NEAR(johanson_discharge(HopperShape::wedge, theta, width, 1, rho, g),
-              rho * 0.2 * std::sqrt(0.2 * g / (2 * std::tan(theta))), 1e-9);
-  EXPECT_EQ(johanson_discharge(HopperShape::cone, theta, width, 0, rho, g, width), 0) << "at the critical outlet";
+  const double coarse = johanson_discharge(HopperShape::cone, theta, width, 0, rho, gravity);
+  EXPECT_NEAR(coarse, rho * 0.25 * std::numbers::pi * 0.04 * std::sqrt(0.2 * gravity / (4 * std::tan(theta))), 1e-9);
+  EXPECT_NEAR(johanson_discharge(HopperShape::wedge, theta, width, 1, rho, gravity),
+              rho * 0.2 * std::sqrt(0.2 * gravity / (2 * std::tan(theta))), 1e-9);
+  EXPECT_EQ(johanson_discharge(HopperShape::cone, theta, width, 0, rho, gravity, width), 0) << "at the critical outlet";
   // Without drag: 4 v^2 sin(theta)/B = g; fine grains are slower, the finer the more.
-  const double free = rho * 0.25 * std::numbers::pi * 0.04 * std::sqrt(0.2 * g / (4 * std::sin(theta)));
-  EXPECT_NEAR(carleton_discharge(theta, width, rho, g, 2500, 0.1), free, 0.01 * free);
-  const double sand = carleton_discharge(theta, width, rho, g, 2500, 200e-6);
+  const double free = rho * 0.25 * std::numbers::pi * 0.04 * std::sqrt(0.2 * gravity / (4 * std::sin(theta)));
+  EXPECT_NEAR(carleton_discharge(theta, width, rho, gravity, 2500, 0.1), free, 0.01 * free);
+  const double sand = carleton_discharge(theta, width, rho, gravity, 2500, 200e-6);
   EXPECT_LT(sand, 0.7 * free);
-  EXPECT_LT(carleton_discharge(theta, width, rho, g, 2500, 50e-6), 0.3 * sand);
+  EXPECT_LT(carleton_discharge(theta, width, rho, gravity, 2500, 50e-6), 0.3 * sand);
 }
 
 }  // namespace

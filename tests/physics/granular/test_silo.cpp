@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "base/unit.hpp"
-
 #include "physics/granular/silo.hpp"
 
 namespace talus::granular {

@@ -12,10 +12,13 @@
 namespace talus::granular {
 namespace {
 
-constexpr double reference_density = 1500;
+constexpr double alpha = 9.8, reference_density = 1500;
 
 PathPoint end_of(const AnyLaw& law, const std::vector<PathStretch>& path, const PathOptions& options = {}) {
   return follow_path(law, path, options).back();
+}
+double mean(const SymmetricTensor3<>& stress) {
+  return trace(stress) / 3;
 }
 
 /// The law's formula, from the tables alone. \param volume e_v, where P rises; \param e deviator

@@ -12,6 +12,8 @@
 namespace talus::granular {
 namespace {
 
+constexpr double alpha = 9.8;
+
 /// The printed route: strain since the last reset, resets, no smoothing, nothing held.
 YuuUmekagePrinted::Parameters printed_route() {
   return {.fits = {.tables = Tables::printed, .max_deviator = 1},
@@ -24,6 +26,9 @@ YuuUmekagePrinted loading_law(ShearSum sum = ShearSum::absolute) {
                             .contact = {.volume = Volume::strain},
                             .shear_sum = sum,
                             .unloading = PrintedUnloading::none});
+}
+double mean(const SymmetricTensor3<>& stress) {
+  return trace(stress) / 3;
 }
 
 TEST(YuuUmekagePrinted, IsEquations1To8) {

@@ -69,7 +69,7 @@ std::vector<Signs> signs_of(std::span<const Image> images) {
 /// Room for as many records, some of it spare. A vector that grows by itself keeps what it held, which is not needed,
 /// and takes three times its memory meanwhile.
 template <class Record>
-void make_room(std::vector<Record>& records, std::size_t count) {
+void reserve_records(std::vector<Record>& records, std::size_t count) {
   if (records.capacity() < count) {
     std::vector<Record>().swap(records);
     records.reserve(count + count / 16);
@@ -135,8 +135,8 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
   const auto ghosts = neighbourhood.ghosts();
   const bool are_all = options_.precision != PairPrecision::in_single;
   const std::span<const std::uint32_t> packed_ghosts = are_all ? lists.packed_ghosts() : wall_ghosts_;
-  make_room(motion_, count + ghosts.size() + 1);
-  make_room(stress_, motion_.size());
+  reserve_records(motion_, count + ghosts.size() + 1);
+  reserve_records(stress_, motion_.size());
   for_each(team, are_all ? count : wall_particles_.size(), [&](std::size_t n) {
     const std::size_t i = are_all ? n : wall_particles_[n];
     const double density = particles.density[i];
@@ -181,8 +181,8 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
   const auto packed_ghosts = lists.packed_ghosts();
   quantum_ = quantum_for(neighbourhood.reach());
   const double per_quantum = 1 / quantum_;
-  make_room(single_motion_, count + ghosts.size() + 1);
-  make_room(single_stress_, single_motion_.size());
+  reserve_records(single_motion_, count + ghosts.size() + 1);
+  reserve_records(single_stress_, single_motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     single_motion_[i] =

@@ -16,9 +16,9 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::size_t max_told = 10;
-constexpr double min_apart = 0.2;      // in spacings: sheared particles come as near as half a spacing
-constexpr double min_from_wall = 0.3;  // in spacings: particles rest at half of one, and come as near as 0.47
-constexpr double min_usual = 0.6;      // in spacings: the median distance to the nearest one; flowing grains have 0.8
+constexpr double min_apart_in_file = 0.2;  // in spacings: sheared particles come as near as half a spacing
+constexpr double min_from_wall = 0.3;      // in spacings: particles rest at half of one, and come as near as 0.47
+constexpr double min_usual = 0.6;  // in spacings: the median distance to the nearest one; flowing grains have 0.8
 constexpr double max_packing = 0.74;
 constexpr const char* faces[] = {"left face", "right face", "front face", "rear face", "floor", "top"};
 
@@ -66,7 +66,7 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
           fmt::format("above 0 and up to {:.6g} kg/m3, {:g} of grains.density", most, max_packing));
   }
   if (finite && p.bed.spacing > 0 && found == 0) {
-    const double apart = min_apart * p.bed.spacing;
+    const double apart = min_apart_in_file * p.bed.spacing;
     const Vector3 extent = bed.high - bed.low;
     const double finest = std::ldexp(std::max({extent.x, extent.y, extent.z}), -19);  // of a CellGrid
     const CellGrid grid(bed.position, std::max(min_usual * p.bed.spacing, finest));
@@ -79,7 +79,7 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
         nearest = std::min(nearest, distance);
         if (m > n && distance < apart)
           add(n, fmt::format("is {:.3g} mm from {}", distance / millimetre, number_of(bed, m)),
-              fmt::format("at least {:.3g} mm, {:g} of bed.spacing", apart / millimetre, min_apart));
+              fmt::format("at least {:.3g} mm, {:g} of bed.spacing", apart / millimetre, min_apart_in_file));
       });
       close += nearest < min_usual * p.bed.spacing;
     }

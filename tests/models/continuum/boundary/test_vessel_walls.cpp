@@ -12,7 +12,7 @@
 namespace talus::continuum {
 namespace {
 
-constexpr double wall_spacing = 2e-3, h = wall_spacing;
+constexpr double spacing = 2e-3, h = spacing;
 
 /// Particles over or under a plate, far from the origin.
 struct AtAPlate {
@@ -22,21 +22,21 @@ struct AtAPlate {
   std::vector<double> smoothing_length, margin;
 
   AtAPlate() {
-    const auto at = [&](double x, double y) { return corner + wall_spacing * Vector3{x, y, 0}; };
+    const auto at = [&](double x, double y) { return corner + spacing * Vector3{x, y, 0}; };
     plate = Surface({{{at(0, 0), at(20, 0), at(20, 20)}, 0}, {{at(0, 0), at(20, 20), at(0, 20)}, 0}}, 1);
   }
   void add(double height, double x, double y, double may_move) {
-    position.push_back(corner + wall_spacing * Vector3{x, y, height});
+    position.push_back(corner + spacing * Vector3{x, y, height});
     smoothing_length.push_back(h);
-    margin.push_back(may_move * wall_spacing);
+    margin.push_back(may_move * spacing);
   }
   VesselWalls met(InstructionSet set) {
     ThreadTeam team(1);
-    const Vector3 room = wall_spacing * Vector3{4, 4, 4};
-    const Domain domain(Box{corner - room, corner + wall_spacing * Vector3{20, 20, 0} + room, {}});
+    const Vector3 room = spacing * Vector3{4, 4, 4};
+    const Domain domain(Box{corner - room, corner + spacing * Vector3{20, 20, 0} + room, {}});
     Neighbourhood around(domain, plate);
     around.build(team, position, smoothing_length, margin);
-    VesselWalls walls(plate, wall_spacing, set);
+    VesselWalls walls(plate, spacing, set);
     walls.find(team, around, position, smoothing_length, margin);
     walls.meet(team, position, smoothing_length);
     return walls;
@@ -60,7 +60,7 @@ TEST(VesselWalls, SumsOverEverySetOfPointsAreThoseOfAPlane) {
       ASSERT_EQ(met.size(), 1u);
       const NearWall& wall = met.front();
       EXPECT_NEAR(wall.sums.weight * h, sph::weight_of_plane(height[i]), 0.009 * touching) << height[i];
-      EXPECT_NEAR(wall.distance / wall_spacing, height[i], 2e-6);
+      EXPECT_NEAR(wall.distance / spacing, height[i], 2e-6);
       EXPECT_NEAR(wall.normal.z, i % 2 == 0 ? 1 : -1, 1e-6);
       EXPECT_NEAR(wall.sums.slope[2], -wall.normal.z * norm(wall.slope()), 0.01 * touching / h);
     }
@@ -73,17 +73,17 @@ TEST(VesselWalls, PointsSufficeForWhatAParticleMayMove) {
   for (const double margin : {0.05, 0.2}) {
     AtAPlate bed;
     for (int n = 0; n < 20; ++n) bed.add(0.6 + 0.1 * n, 8 + 0.13 * n, 9 + 0.07 * n, margin);
-    const Vector3 room = wall_spacing * Vector3{4, 4, 4};
-    const Domain domain(Box{bed.corner - room, bed.corner + wall_spacing * Vector3{20, 20, 0} + room, {}});
+    const Vector3 room = spacing * Vector3{4, 4, 4};
+    const Domain domain(Box{bed.corner - room, bed.corner + spacing * Vector3{20, 20, 0} + room, {}});
     ThreadTeam team(1);
     Neighbourhood around(domain, bed.plate);
     around.build(team, bed.position, bed.smoothing_length, bed.margin);
-    VesselWalls walls(bed.plate, wall_spacing, resolve(InstructionSet::automatic));
+    VesselWalls walls(bed.plate, spacing, resolve(InstructionSet::automatic));
     walls.find(team, around, bed.position, bed.smoothing_length, bed.margin);
     std::vector<double> grown = bed.smoothing_length;
     for (std::size_t i = 0; i < grown.size(); ++i) {
-      bed.position[i].z -= 0.6 * margin * wall_spacing;
-      grown[i] += 0.4 * margin * wall_spacing;
+      bed.position[i].z -= 0.6 * margin * spacing;
+      grown[i] += 0.4 * margin * spacing;
     }
     ASSERT_TRUE(around.holds(team, bed.position, grown));
     walls.meet(team, bed.position, grown);

@@ -11,7 +11,7 @@ namespace talus::continuum {
 namespace {
 
 /// A hopper whose lengths are so many times those of a laboratory: an outlet of 40 mm under a bed of 80 mm.
-Parameters scaled_hopper(double scale) {
+Parameters hopper(double scale) {
   Parameters p;
   p.box.width = 0.1 * scale, p.box.depth = 0.1 * scale, p.box.height = 0.3 * scale;
   p.plate.height = 0.1 * scale, p.plate.slit_left = 0.03 * scale, p.plate.slit_right = 0.07 * scale;
@@ -20,7 +20,7 @@ Parameters scaled_hopper(double scale) {
 }
 
 TEST(TimeScales, GrowWithTheRootOfTheOutlet) {
-  const TimeScales small = time_scales_of(scaled_hopper(1)), large = time_scales_of(scaled_hopper(100));
+  const TimeScales small = time_scales_of(hopper(1)), large = time_scales_of(hopper(100));
   EXPECT_NEAR(small.length, 0.04, 1e-12);
   EXPECT_NEAR(small.time, std::sqrt(0.04 / 9.81), 1e-12);
   EXPECT_NEAR(small.settled_speed, 0.5e-3, 0.01e-3);
@@ -34,7 +34,7 @@ TEST(TimeScales, GrowWithTheRootOfTheOutlet) {
 }
 
 TEST(TimeScales, AreWhatTheCaseGives) {
-  Parameters p = scaled_hopper(100);
+  Parameters p = hopper(100);
   p.settle.speed = 0.5e-3, p.settle.duration = 20e-3, p.settle.max_time = 1, p.analysis.averaging_time = 20e-3;
   const TimeScales given = time_scales_of(p);
   EXPECT_EQ(given.settled_speed, 0.5e-3);
@@ -45,7 +45,7 @@ TEST(TimeScales, AreWhatTheCaseGives) {
 }
 
 TEST(TimeScales, AreOfTheNarrowerSideOrTheBed) {
-  Parameters p = scaled_hopper(1);
+  Parameters p = hopper(1);
   p.box.front = p.box.rear = FaceKind::wall;
   p.box.depth = 0.01;
   EXPECT_NEAR(*outlet_width_of(p), 0.01, 1e-12) << "walls in front and behind";
@@ -62,7 +62,7 @@ TEST(TimeScales, AreOfTheNarrowerSideOrTheBed) {
 }
 
 TEST(TimeScales, AVesselThatIsFilledIsWaitedFor) {
-  Parameters p = scaled_hopper(1);
+  Parameters p = hopper(1);
   const double without = time_scales_of(p).settling_limit;
   p.inlets.resize(1);
   p.inlets[0].clock = InletClock::start;
@@ -89,7 +89,7 @@ TEST(Loading, InLayersAFrontRisesThroughTheBed) {
 }
 
 TEST(Loading, InLayersTakesFourTimesAsLong) {
-  Parameters p = scaled_hopper(1);
+  Parameters p = hopper(1);
   const TimeScales scales = time_scales_of(p);
   const double at_once = loading_time(p, 0.08, scales, 50);
   p.settle.filling = Filling::layers;
