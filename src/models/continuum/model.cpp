@@ -281,8 +281,10 @@ std::optional<GridSnapshot> Continuum::grid() const {
 
 std::optional<SurfaceSnapshot> Continuum::walls() const {
   if (setup_->given.vessel.empty()) return std::nullopt;
-  SurfaceSnapshot snapshot =
-      loads_on(workspace_->load_mesh, workspace_->load_fields, state_.wall_loads, state_.time, state_.gate_time);
+  Workspace& w = *workspace_;
+  if (!w.load_mesh)
+    w.load_mesh = mesh_of(w.boundary.vessel(), w.load_fields, edge_of_drawn_field * setup_->given.bed.spacing);
+  SurfaceSnapshot snapshot = loads_on(*w.load_mesh, w.load_fields, state_.wall_loads, state_.time, state_.gate_time);
   snapshot.step = state_.step;
   return snapshot;
 }

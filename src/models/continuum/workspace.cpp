@@ -28,7 +28,6 @@ Workspace::Workspace(const Setup& setup, const State& state, const Ranks& ranks)
       lasting_time(passages_that_last * setup.given.bed.spacing / setup.sound_speed),
       load_fields(continuum::load_fields(setup)),
       load_bands(continuum::load_bands(setup.given, load_fields)),
-      load_mesh(mesh_of(boundary.vessel(), load_fields, edge_of_drawn_field * setup.given.bed.spacing)),
       pairs(setup, boundary.domain(), boundary.vessel(), &load_fields),
       air(setup.given.air.enabled ? std::make_unique<Atmosphere>(setup.given, levels, boundary, share) : nullptr),
       position(state.position.size()),

@@ -37,7 +37,7 @@ struct Workspace {
   std::vector<InletLayer> inlets;
   SurfaceFields load_fields;  ///< of the vessel
   std::vector<LoadBand> load_bands;
-  FieldMesh load_mesh;
+  std::optional<FieldMesh> load_mesh;  ///< of the loads in snapshots; made for the first
   PairSums pairs;
   bool drops_lists = false;           ///< at the next step, though they hold
   Rates rates;                        ///< of the state, between steps

@@ -261,6 +261,7 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   // Fields of all copies bear the same, turned.
   const Layout layout(p);
   const SurfaceFields fields = load_fields(layout);
+  EXPECT_EQ(count_load_fields(layout), fields.count());
   const Sector sector = *layout.sector();
   const std::size_t own = fields.count() / static_cast<std::size_t>(sector.copies());
   for (std::size_t n = 0; n < fields.count(); ++n) {

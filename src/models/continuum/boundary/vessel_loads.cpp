@@ -51,6 +51,13 @@ SurfaceFields load_fields(const Layout& layout) {
           {p.box.width, p.box.depth, infinity}};
 }
 
+std::size_t count_load_fields(const Layout& layout) {
+  const Surface& vessel = layout.boundary->vessel();
+  const double size = size_of_load_field * layout.given.bed.spacing;
+  if (vessel.is_empty()) return 0;
+  return layout.sector() ? spread_points(vessel, size, *layout.sector()).size() : spread_points(vessel, size).size();
+}
+
 WallLoads no_loads(std::size_t fields, double unit) {
   const std::vector<double> none(fields, 0.0);
   const std::vector<Vector3> nothing(fields);

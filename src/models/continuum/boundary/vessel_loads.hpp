@@ -62,6 +62,9 @@ constexpr double edge_of_drawn_field = 3;  ///< the longest of its triangles in 
 /// The fields of a vessel's walls.
 SurfaceFields load_fields(const Layout& layout);
 
+/// Their number, without their areas, which take long to find.
+std::size_t count_load_fields(const Layout& layout);
+
 /// Without load. \param fields their number \param unit State::impulse_unit, N s
 WallLoads no_loads(std::size_t fields, double unit);
 

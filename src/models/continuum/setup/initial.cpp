@@ -88,7 +88,7 @@ State initial_state(const Setup& setup, int part, int parts) {
   if (state.has.collisional)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.patch_impulse.assign(setup.boundary->patches().size(), Vector3{});
-  state.wall_loads = no_loads(load_fields(setup).count(), state.impulse_unit);
+  state.wall_loads = no_loads(count_load_fields(setup), state.impulse_unit);
   if (state.has.reset_position) state.reset_position = state.position;
   if (state.has.sector_turns) state.sector_turns.assign(count, 0);
   state.slots = material.slots();

@@ -69,6 +69,7 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   // The fields of a wall together received what it did; their mean pressure is that of their depth.
   const Surface surface = Boundary(p).vessel();
   const SurfaceFields fields = load_fields(Layout(p));
+  EXPECT_EQ(count_load_fields(Layout(p)), fields.count());
   ASSERT_EQ(s.wall_loads.push.size(), fields.count());
   std::vector<Vector3> received(p.vessel.size());
   for (std::size_t n = 0; n < fields.count(); ++n)
