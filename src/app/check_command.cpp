@@ -34,6 +34,9 @@ namespace {
 constexpr double hour = 3600;
 constexpr std::size_t max_value_width = 16;  // longer ones exceed their column
 
+/// Seconds of an evaluation by what it depends on, and threads: cases that differ in nothing else are measured once.
+using Measured = std::map<std::pair<std::string, int>, std::optional<double>>;
+
 /// What the sections of the output are about.
 struct Subject {
   const CaseOptions& options;
@@ -41,6 +44,7 @@ struct Subject {
   const PreparedCase& prepared;
   int threads, ranks;
   std::size_t key;  ///< columns of the longest key, or name
+  Measured& measured;
 };
 
 /// To two digits: "3800".
@@ -159,25 +163,36 @@ double seconds_of(const Forecast& forecast, double evaluation) {
   return seconds;
 }
 
+/// The end counts where inlets fill an empty vessel.
+std::string evaluation_of(const PreparedCase& prepared) {
+  std::vector<std::string_view> excluded{"accuracy", "title", "output"};
+  const auto is_of_inlet = [](const DescribedParameter& item) { return item.parameter.key.starts_with("inlet"); };
+  if (std::none_of(prepared.parameters.begin(), prepared.parameters.end(), is_of_inlet)) excluded.push_back("run");
+  return fingerprint(prepared.parameters, excluded);
+}
+
 /// Seconds of an evaluation; nothing if those that were tried end in numerical trouble, whose text is kept.
-std::optional<double> measured_evaluation(const PreparedCase& prepared, int threads, std::string* trouble = nullptr) {
+std::optional<double> measured_evaluation(const PreparedCase& prepared, int threads, Measured& measured,
+                                          std::string* trouble = nullptr) {
+  const auto [found, is_new] = measured.try_emplace({evaluation_of(prepared), threads});
+  if (!is_new) return found->second;
   ThreadTeam team(threads);
   try {
-    return prepared.measure_evaluation(team);
+    found->second = prepared.measure_evaluation(team);
   } catch (const NumericalError& error) {
     if (trouble) *trouble = error.what();
-    return std::nullopt;
   }
+  return found->second;
 }
 
 /// Nothing where steps that were tried fail.
-std::optional<double> measured_seconds(const PreparedCase& prepared, int threads) {
-  const std::optional<double> each = measured_evaluation(prepared, threads);
+std::optional<double> measured_seconds(const PreparedCase& prepared, int threads, Measured& measured) {
+  const std::optional<double> each = measured_evaluation(prepared, threads, measured);
   return each ? std::optional(seconds_of(prepared.forecast, *each)) : std::nullopt;
 }
 
-std::string measured_time(const PreparedCase& prepared, int threads) {
-  const std::optional<double> seconds = measured_seconds(prepared, threads);
+std::string measured_time(const PreparedCase& prepared, int threads, Measured& measured) {
+  const std::optional<double> seconds = measured_seconds(prepared, threads, measured);
   return seconds ? run::format_seconds(*seconds) : "not known, its first steps fail";
 }
 
@@ -213,7 +228,7 @@ void print_accuracies(const Subject& s) {
         if (const auto set = prepared.filled_in.find(line.key);
             set != prepared.filled_in.end() && (set->second == "accuracy" || line.key.ends_with(".bulk_modulus")))
           keys.push_back(fmt::format("{} {} {}", line.key, line.value, line.unit));
-      const std::string time = measured_time(prepared, s.threads);
+      const std::string time = measured_time(prepared, s.threads, s.measured);
       print("    {}\n", wrapped(fmt::format("{:{}}{}: {}", name, s.key, time, fmt::join(keys, ", ")), terminal_width(),
                                 s.key + 4, 4));
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): such as one that needs bed.spacing
@@ -235,18 +250,18 @@ void print_shortenings(const Subject& s, double seconds) {
       for (const std::string& setting : found->first)
         change += fmt::format("{}--set {}", change.empty() ? "" : " \\\n    ",
                               setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
-      const std::optional<double> shorter = measured_seconds(found->second, s.threads);
+      const std::optional<double> shorter = measured_seconds(found->second, s.threads, s.measured);
       if (shorter && *shorter < seconds) option(change, run::format_seconds(*shorter), shortening.text);
     }
   if (const int all_processors = processors(); all_processors > s.threads)
-    option(fmt::format("--threads {}", all_processors), measured_time(s.prepared, all_processors),
+    option(fmt::format("--threads {}", all_processors), measured_time(s.prepared, all_processors, s.measured),
            "all processors of this machine");
 }
 
 void print_forecast(const Subject& s) {
   const Forecast& f = s.prepared.forecast;
   std::string trouble;
-  const std::optional<double> measured = measured_evaluation(s.prepared, s.threads, &trouble);
+  const std::optional<double> measured = measured_evaluation(s.prepared, s.threads, s.measured, &trouble);
   if (!measured) {
     print("\n! No forecast: the first steps of this case fail.\n  {}\n", wrapped(trouble, terminal_width(), 2, 2));
     return;
@@ -294,7 +309,7 @@ void print_start(const Subject& s) {
 
 void print_on_ranks(const Subject& s) {
   if (s.ranks == 1) return;
-  const std::optional<double> each = measured_evaluation(s.prepared, s.threads);
+  const std::optional<double> each = measured_evaluation(s.prepared, s.threads, s.measured);
   if (!each) return;
   ThreadTeam team(s.threads);
   print("\nOn {} processes (modelled from the speed measured on this machine now, {} thread{} each):\n", s.ranks,
@@ -321,7 +336,8 @@ ExitStatus check(const CaseOptions& options, int threads, int ranks, bool all, c
                        .what = fmt::format("the model {} has no bed", prepared.model),
                        .allowed = "a case of the model continuum"}});
 
-  Subject subject{options, file, prepared, threads, ranks, std::string_view("from the material").size()};
+  Measured measured;
+  Subject subject{options, file, prepared, threads, ranks, std::string_view("from the material").size(), measured};
   for (const NamedValue& group : prepared.groups) subject.key = std::max(subject.key, group.name.size());
   if (all)
     for (const DescribedParameter& item : prepared.parameters.that_hold())

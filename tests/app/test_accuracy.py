@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The key accuracy as a user meets it: forecasts, problems, a run and its resume."""
 import json
+import re
 import unittest
 
 from program import InputTest
@@ -65,6 +66,13 @@ class Accuracy(InputTest):
         said = self.talus("check", "case.toml").stdout
         self.assertRegex(said, r"accuracy +sets what the case leaves out:\n    draft .*\n(.*\n)*?    design .*\n(.*\n)*?"
                                r"    reference ")
+
+    def test_what_is_the_same_case_is_measured_once(self):
+        kept = SILO.replace('floor = "open"\n', "").replace('[removal]\nbelow = "30 mm"\n', "").replace("0.02 s", "1000 s")
+        (self.folder / "case.toml").write_text(kept)
+        said = self.talus("check", "case.toml", "--set", "accuracy=draft").stdout
+        time = re.search(r"\n  time +(.*)\n", said).group(1)
+        self.assertIn(time + ":", re.search(r"\n    draft +(.*)\n", said).group(1))
 
     def test_a_run_keeps_what_was_set(self):
         self.talus("run", "case.toml", "--out", "r", "--set", "accuracy=draft")
