@@ -17,8 +17,6 @@
 
 namespace talus {
 
-namespace {}
-
 Curve integral(const Curve& curve) {
   Curve sum{curve.time, std::vector<double>(curve.time.size(), 0.0)};
   for (std::size_t n = 1; n < curve.time.size(); ++n)

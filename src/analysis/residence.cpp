@@ -8,8 +8,6 @@
 
 namespace talus {
 
-namespace {}
-
 Residence::Residence(const Snapshot& start, double outlet, std::size_t layers)
     : outlet_(outlet), low_(outlet), count_(layers) {
   const auto position = start.positions();

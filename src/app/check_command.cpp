@@ -163,7 +163,7 @@ double seconds_of(const Forecast& forecast, double evaluation) {
   return seconds;
 }
 
-/// The end counts where inlets fill an empty vessel.
+/// The digest of what the cost of an evaluation depends on; of the end too where inlets fill an empty vessel.
 std::string evaluation_of(const PreparedCase& prepared) {
   std::vector<std::string_view> excluded{"accuracy", "title", "output"};
   const auto is_of_inlet = [](const DescribedParameter& item) { return item.parameter.key.starts_with("inlet"); };
