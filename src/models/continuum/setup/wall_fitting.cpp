@@ -66,6 +66,7 @@ std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double 
 
 /// Of one on another that is d away; d in spacings. Its potential falls to zero at the reach.
 Vector3 repulsion(const Vector3& d) {
+  if (!(dot(d, d) < reach * reach)) return {};
   const double q = norm(d) / reach, steep = 20 / reach;
   return q > 0 && q < 1 ? steep * (1 - q) * (1 - q) * (1 - q) * d : Vector3{};
 }
