@@ -36,14 +36,14 @@ class Tree(unittest.TestCase):
 class Lint(Tree):
     """clang-tidy on a tree of one file, built by ninja as CMake would have it."""
 
-    def lint(self):
+    def lint(self, source="../src/base/a.cpp"):
         build = self.root / "build"
         self.write(".clang-tidy", (ROOT / ".clang-tidy").read_text(encoding="utf-8"))
         self.write("build/build.ninja", "rule cxx\n  command = c++ -MMD -MF $out.d -I../src -c $in -o $out\n"
-                   "  depfile = $out.d\n  deps = gcc\nbuild a.o: cxx ../src/base/a.cpp\n")
-        command = f"c++ -I{self.root}/src -o a.o -c {self.root}/src/base/a.cpp"
-        self.write("build/compile_commands.json", json.dumps(
-            [{"directory": str(build), "command": command, "file": f"{self.root}/src/base/a.cpp"}]))
+                   f"  depfile = $out.d\n  deps = gcc\nbuild a.o: cxx {source}\n")
+        path = str((build / source).resolve())
+        command = f"c++ -I{self.root}/src -o a.o -c {path}"
+        self.write("build/compile_commands.json", json.dumps([{"directory": str(build), "command": command, "file": path}]))
         subprocess.run(["ninja", "-C", str(build)], check=True, capture_output=True)
         return subprocess.run([str(ROOT / "tools/check_lint.py"), "--root", str(self.root)],
                               capture_output=True, text=True)
@@ -56,6 +56,16 @@ class Lint(Tree):
         self.write("src/base/a.cpp", '#include "base/a.hpp"\nint halve(int x) { return x / 2; }\n')
         self.assertIn("1 files, 1 looked at, 0 with findings", self.lint().stdout)
         self.assertIn("1 files, 0 looked at, 0 with findings", self.lint().stdout)
+
+    def test_the_files_of_a_folder_that_is_compiled_as_one_are_looked_at(self):
+        self.write("src/base/a.cpp", "int one() { return 1; }\n")
+        self.write("src/base/b.cpp", "int Two() { return 2; }\n")
+        self.write("build/src/unity.cxx", '#include "base/a.cpp"\n#include "base/b.cpp"\n')
+        done = self.lint("src/unity.cxx")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"src/base/b.cpp:1:.*readability-identifier-naming")
+        self.write("src/base/b.cpp", "int two() { return 2; }\n")
+        self.assertIn("1 files, 1 looked at, 0 with findings", self.lint("src/unity.cxx").stdout)
 
     def test_a_change_of_a_header_is_looked_at(self):
         self.write("src/base/a.cpp", '#include "base/a.hpp"\nint one() { return 1; }\n')
