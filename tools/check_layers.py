@@ -124,7 +124,8 @@ def unnamed_names(text):
 
 def check_unnamed_names(root):
     """Where the files of a folder are compiled as one (CMAKE_UNITY_BUILD), a name of an unnamed namespace hides a
-    function of that name that a later file includes."""
+    function of that name that a later file includes. Found by text: a name that the later file declares anywhere is
+    taken for its own."""
     problems, folders = [], {}
     for path in sorted((root / "src").rglob("*.cpp")):
         if not ALONE.search(path.as_posix()):

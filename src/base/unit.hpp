@@ -9,8 +9,9 @@
 
 namespace talus {
 
-inline constexpr double millimetre = 1e-3;
-inline constexpr double degree = std::numbers::pi / 180;
+// Units in which code writes down numbers.
+inline constexpr double millimetre = 1e-3;                ///< m
+inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
 /// Exponents of metre, kilogram, second and radian.
 struct Dimension {

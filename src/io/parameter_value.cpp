@@ -118,7 +118,7 @@ std::string example_text(const Parameter& parameter, const ValueType& type) {
     case ValueType::Kind::text:
       return "\"text\"";
     case ValueType::Kind::choice:
-      return talus::quoted(type.choices.front());
+      return talus::quoted(type.choices.front());  // not std::quoted
   }
   return {};
 }

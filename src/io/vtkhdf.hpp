@@ -20,6 +20,7 @@
 
 namespace talus {
 
+/// The group of a file that its readers look for.
 inline const std::string vtkhdf_root = "VTKHDF";
 
 /// Writes a snapshot, whole or not at all. The same snapshot gives the same bytes.

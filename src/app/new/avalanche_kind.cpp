@@ -29,7 +29,7 @@ std::string write(const Answers& a) {
   const double stiffness = 10 * std::pow(radius / 5e-3, 2) * a["density"] / 20 * std::sqrt(std::max(1.0, count / 2000));
   // 60 times that in which a grain alone falls by its radius (Stokes): the paper's 5 ms. Where the grain is not denser
   // than the fluid, talus check says so.
-  const double speed = 2.0 / 9.0 * std::abs(excess) * standard_gravity * radius * radius / a["viscosity"];
+  const double speed = 2.0 / 9.0 * std::abs(excess) * drafted_gravity * radius * radius / a["viscosity"];
   const double end = 60 * radius / (speed > 0 ? speed : 1);
   return fmt::format(
       "# A disc of grains on a slope sinks through a viscous fluid and drags it along: a model of powder clouds.\n"

@@ -131,7 +131,7 @@ std::string grains_of_material(const Answers& a, bool rubs_from_start) {
 /// \param creeps whether a lattice of particles may go on creeping: along inclined walls, or beside one that goes
 /// \param layers whether the weight comes on in layers, for loads on walls as those of a silo that has been filled
 std::string settling(double length, bool creeps, bool layers = false) {
-  const double time = std::sqrt(length / standard_gravity), speed = std::sqrt(length * standard_gravity);
+  const double time = std::sqrt(length / drafted_gravity), speed = std::sqrt(length * drafted_gravity);
   const auto two_digits = [](double value) {
     const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
     return unit * std::round(value / unit);
@@ -171,7 +171,7 @@ std::vector<Problem> check_outlet(const Answers& a) {
 
 /// \param outlet its width, m: rows of the series are at most T/2 apart (analysis.averaging_time); infinite without one
 std::string ending(double end, double frames, double rows, double outlet = std::numeric_limits<double>::infinity()) {
-  const double apart = std::min(end / rows, 0.15 * std::sqrt(outlet / standard_gravity));
+  const double apart = std::min(end / rows, 0.15 * std::sqrt(outlet / drafted_gravity));
   return fmt::format(
       "# Counted from the opening of the gate.\n[run]\nend = {}\n\n"
       "[output]\nsnapshots = {}\nseries = {}\n",
@@ -227,8 +227,8 @@ std::string write_hopper(const Answers& a) {
   const double spacing = spacing_of(outlet, across_an_outlet, width * fill);
   // The mass flow of a slit, near 1.04 rho_b g^(1/2) W^(3/2) a depth in the paper's hopper in a vacuum, two thirds of
   // it in air; then some fall and rest.
-  const double flow = 1.04 * std::sqrt(standard_gravity) * std::pow(outlet, 1.5) * (air ? 0.67 : 1);
-  const double end = rounded_up(2 * width * fill / flow + 2 * std::sqrt(2 * drop / standard_gravity));
+  const double flow = 1.04 * std::sqrt(drafted_gravity) * std::pow(outlet, 1.5) * (air ? 0.67 : 1);
+  const double end = rounded_up(2 * width * fill / flow + 2 * std::sqrt(2 * drop / drafted_gravity));
   std::string text =
       head(fmt::format("{}{}", wedge ? "Wedge hopper" : "Flat-bottomed hopper", air ? " in air" : ""),
            removal ? "Grains settle in a hopper; the gate opens; they flow out and are taken away."
@@ -308,7 +308,7 @@ std::string write_silo(const Answers& a) {
   const double cone_top = drop + (radius - 0.5 * outlet) / std::tan(a["half-angle"]);
   const double top = std::max(cone_top, drop + fill) + 4 * spacing, room = 2 * radius + 8 * spacing;
   // Beverloo's rule with the grains as points, half as long again.
-  const double rate = 0.58 * std::sqrt(standard_gravity) * std::pow(outlet, 2.5);
+  const double rate = 0.58 * std::sqrt(drafted_gravity) * std::pow(outlet, 2.5);
   std::string text =
       head("Silo", removal ? "Grains flow out of a silo, a cone under a cylinder, and are taken away and counted."
                            : "Grains flow out of a silo, a cone under a cylinder, and pile up on the floor.");
@@ -366,7 +366,7 @@ std::string write_column(const Answers& a) {
                       written(width, "mm"), written(height, "mm"));
   text += frictions(a["friction"]);
   text += settling(height, true) + fmt::format("[walls]\ncoefficient = {:.5g}\n\n", a["floor-friction"]);
-  return text + ending(rounded_up(7 * std::sqrt(height / standard_gravity)), 25, 1000);
+  return text + ending(rounded_up(7 * std::sqrt(height / drafted_gravity)), 25, 1000);
 }
 
 }  // namespace

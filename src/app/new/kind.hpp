@@ -15,7 +15,7 @@
 
 namespace talus::app {
 
-inline constexpr double standard_gravity = 9.81;  ///< of the cases that are written, m/s2
+inline constexpr double drafted_gravity = 9.81;  ///< gravity.acceleration of every draft, m/s2
 
 /// A number, a word, or yes or no.
 struct Question {

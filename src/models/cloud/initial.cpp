@@ -14,7 +14,7 @@ namespace talus::cloud {
 
 namespace {
 
-constexpr int max_places = 1'000'000;
+constexpr int max_trials_of_grain = 1'000'000;
 
 std::vector<double> draw_radii(const Parameters::Particles& p, Random& random) {
   std::vector<double> radius(p.count, p.radius);
@@ -187,8 +187,8 @@ Grains pack(const Parameters& parameters) {
     int trial = 0;
     Vector3 x;
     do {
-      if (++trial > max_places)
-        throw NumericalError({.what = fmt::format("no place for a grain after {} trials", max_places),
+      if (++trial > max_trials_of_grain)
+        throw NumericalError({.what = fmt::format("no place for a grain after {} trials", max_trials_of_grain),
                               .term = "random packing of the start",
                               .place = fmt::format("grain {} of {}", n + 1, grains.radius.size()),
                               .advice = "a larger shape or fewer grains"});

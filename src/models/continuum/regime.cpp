@@ -19,7 +19,7 @@ namespace {
 
 constexpr double min_across = 12;  // particles
 constexpr double min_outlet_over_axis = 2.8;
-constexpr double notable_cover = 0.1;  // of an outlet, of a wall
+constexpr double notable_part = 0.1;  // of an outlet, of a wall
 constexpr double notable_viscosity = 0.2;
 constexpr double notable_compression = 0.05;
 
@@ -155,13 +155,13 @@ void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
           {"share of the outlet" + name + " with a wall just above", fmt::format("{:.2g}", covered),
            "what is open there is narrower than the gate, by which the outlet's width and what follows from "
            "it are taken: give the gate the size of the hole",
-           covered > notable_cover});
+           covered > notable_part});
     if (const double blocked = share_blocked_below(setup, outlet); blocked > 0)
       lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),
                        fmt::format("nearer than it is across, {:.4g} mm: grains that do not fall freely there leave "
                                    "more slowly than the analytical estimate says",
                                    outlet.narrow / millimetre),
-                       blocked > notable_cover});
+                       blocked > notable_part});
   }
 }
 
@@ -187,7 +187,7 @@ constexpr double max_depth_below_box = 5;  // heights of the box
 void add_walls_beyond_box(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    if (const double share = share_in_box(p, n); share < notable_cover)
+    if (const double share = share_in_box(p, n); share < notable_part)
       lines.push_back({"share of " + name_of(p, n) + " within the box", fmt::format("{:.2g}", share),
                        extents_text(p, n) + ": are place and unit right?", true});
     else if (const double depth = -bounds_of(p, n).low.z; depth > max_depth_below_box * p.box.height)

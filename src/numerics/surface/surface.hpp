@@ -108,11 +108,10 @@ struct SurfacePoint {
 /// Cuts every flat piece of the surface into squares of at most `distance`, and takes the middle of what lies in each;
 /// rests of less than a third of a square join each other or the nearest square of the same smooth part. So the points
 /// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
-std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
-
-/// The points of the part of the surface in a sector, and then the points of each of its copies, in the same order: as
-/// symmetric as the surface. \param surface whose triangles, and so its smooth parts, turn into each other by the angle
-/// of the sector
-std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector);
+/// With a sector, the points of the part of the surface in it, and then the points of each of its copies, in the same
+/// order: as symmetric as the surface, whose triangles, and so its smooth parts, turn into each other by the angle of
+/// the sector.
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance,
+                                        const std::optional<Sector>& sector = {});
 
 }  // namespace talus

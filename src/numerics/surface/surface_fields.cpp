@@ -53,7 +53,7 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
                              const Vector3& low, const Vector3& high)
     : size_(size), from_(low), to_(high), sector_(sector) {
   if (surface.is_empty()) return;
-  fields_ = sector ? spread_points(surface, size, *sector) : spread_points(surface, size);
+  fields_ = spread_points(surface, size, sector);
   low_ = surface.low();
   const Vector3 extent = surface.high() - low_;
   cell_ = reach * size;

@@ -281,18 +281,15 @@ std::vector<SurfacePoint> spread(const Surface& surface, double distance, const 
 
 }  // namespace
 
-std::vector<SurfacePoint> spread_points(const Surface& surface, double distance) {
-  return spread(surface, distance, nullptr);
-}
-
-std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector) {
-  std::vector<SurfacePoint> points = spread(surface, distance, &sector);
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const std::optional<Sector>& sector) {
+  std::vector<SurfacePoint> points = spread(surface, distance, sector ? &*sector : nullptr);
+  if (!sector) return points;
   const std::size_t own = points.size();
-  for (int k = 1; k < sector.copies(); ++k)
+  for (int k = 1; k < sector->copies(); ++k)
     for (std::size_t n = 0; n < own; ++n) {
       SurfacePoint copy = points[n];
-      copy.place = sector.turned(copy.place, k);
-      copy.normal = sector.turn(k) * copy.normal;
+      copy.place = sector->turned(copy.place, k);
+      copy.normal = sector->turn(k) * copy.normal;
       points.push_back(copy);
     }
   return points;

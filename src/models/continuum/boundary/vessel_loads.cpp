@@ -53,9 +53,8 @@ SurfaceFields load_fields(const Layout& layout) {
 
 std::size_t count_load_fields(const Layout& layout) {
   const Surface& vessel = layout.boundary->vessel();
-  const double size = size_of_load_field * layout.given.bed.spacing;
   if (vessel.is_empty()) return 0;
-  return layout.sector() ? spread_points(vessel, size, *layout.sector()).size() : spread_points(vessel, size).size();
+  return spread_points(vessel, size_of_load_field * layout.given.bed.spacing, layout.sector()).size();
 }
 
 WallLoads no_loads(std::size_t fields, double unit) {

@@ -37,8 +37,7 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
     const std::size_t n = (k + sets_of_points) % sets_;
     first_record_[n] = static_cast<std::uint32_t>(records_.size());
     const double apart = apart_in(n) * spacing;
-    const std::vector<SurfacePoint> points =
-        sector ? spread_points(surface, apart, *sector) : spread_points(surface, apart);
+    const std::vector<SurfacePoint> points = spread_points(surface, apart, sector);
     // Numbered cell by cell: points that are near each other stand together.
     std::vector<Vector3> places;
     for (const SurfacePoint& point : points) places.push_back(point.place);

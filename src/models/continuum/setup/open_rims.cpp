@@ -15,7 +15,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double close = 0.6, sideways = 0.9, near = 1.2, deep = 1, min_length = 2;  // in spacings
+constexpr double probe = 0.6, sideways = 0.9, near = 1.2, deep = 1, min_length = 2;  // in spacings
 constexpr double max_positions_of_rims = 2e5;  // of a lattice; a coarser one reports holes that matter as well
 
 /// A place on a rim.
@@ -42,7 +42,7 @@ bool is_closed(const Parameters& p, const Vector3& x) {
 /// Whether a grain comes from one side of the triangle around its edge to the other.
 bool is_way_around(const Parameters& p, const Surface& surface, const Domain& domain, const Vector3& x,
                    const Vector3& normal, const Vector3& outwards) {
-  const Vector3 n = 0.5 * close * p.bed.spacing * normal, out = close * p.bed.spacing * outwards;
+  const Vector3 n = 0.5 * probe * p.bed.spacing * normal, out = probe * p.bed.spacing * outwards;
   const std::array<Vector3, 4> way = {x - out + n, x + out + n, x + out - n, x - out - n};
   for (std::size_t k = 0; k < way.size(); ++k)
     if (is_closed(p, way[k]) || (k > 0 && (surface.blocks(way[k - 1], way[k]) || domain.blocks(way[k - 1], way[k]))))

@@ -66,9 +66,10 @@ std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double 
 
 /// Of one on another that is d away; d in spacings. Its potential falls to zero at the reach.
 Vector3 repulsion(const Vector3& d) {
-  if (!(dot(d, d) < reach * reach)) return {};
-  const double q = norm(d) / reach, steep = 20 / reach;
-  return q > 0 && q < 1 ? steep * (1 - q) * (1 - q) * (1 - q) * d : Vector3{};
+  const double square = dot(d, d);  // most are farther away, and need no root
+  if (!(square > 0 && square < reach * reach)) return {};
+  const double q = std::sqrt(square) / reach, steep = 20 / reach;
+  return steep * (1 - q) * (1 - q) * (1 - q) * d;
 }
 
 /// What brings a particle as far from the plane as walls hold it, within its level.
