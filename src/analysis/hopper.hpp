@@ -81,6 +81,7 @@ struct HopperSetting {
   double outlet_length = 0;                 ///< of an outlet that is not round, its longer side, m; 0: round, or none
   std::vector<BandOfWall> bands = {};       ///< of the vessel's walls
   double hand_discharge = 0;                ///< by an analytical estimate, kg/s; 0: none for this outlet
+  double hand_emptying_time = no_value;     ///< by it, while the gates are open, s; nan: none, or never
   std::vector<OutletSetting> outlets = {};  ///< where there are several
   double mass_flow_half_angle = no_value;   ///< by an analytical estimate, rad; nan: none
   double averaging_time = 20e-3;            ///< T, of rates, loads and speeds; peaks are averages over half of it, s

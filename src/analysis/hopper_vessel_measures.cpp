@@ -258,14 +258,12 @@ std::vector<Row> hopper_vessel_measures() {
             return first_time_at_or_below(left, 0.01);
           }},
           {outlet}),
-      Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
-          {[](const Run& r, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
-          {bed_and_hand_formula}),
+      Row("emptying_time_by_hand", "s", "0.99 M by discharge_rate_beverloo with gates open, without start and end",
+          {[](const Run& r, const Window&) { return r.setting.hand_emptying_time; }}, {bed_and_hand_formula}),
       Row("share_that_moves", "1",
-          "share by mass of the particles above the outlet that are faster than a tenth of their mean; speed: "
-          "displacement "
-          "since the snapshot about T before, over the time between. From 0.99 on it is mass flow, below that funnel "
-          "flow; none before 10 % have been discharged, or where the flow had stopped",
+          "share by mass of particles above the outlet that are faster than a tenth of their mean; speed: displacement "
+          "since the snapshot about T before, over the time between. From 0.99 on mass flow, below that funnel flow; "
+          "none before 10 % have been discharged, or where the flow had stopped",
           {share_in_motion, share_that_moves}, {vessel_with_outlet, while_it_flows}),
       Row("residual_mass", "kg", "mass above the outlet at the end",
           {[](const Run& r, const Window&) { return flow_end(r).left; }}, {outlet}),

@@ -99,15 +99,15 @@ ExitStatus run_together(const RunOptions& options, RunRequest request, const Ran
     print_warnings(prepared);
     if (request.dry_run) return run_case(prepared, request);
     run::Followers followers(ranks);
-    prepared.make_model = [part = prepared.make_part, &ranks, &followers] {
-      return run::led_model(part(ranks), followers);
+    prepared.make_model = [part = prepared.make_part, &ranks, &followers](ThreadTeam& team) {
+      return run::led_model(part(team, ranks), followers);
     };
     return run_case(prepared, request);
   }
   if (request.dry_run) return ExitStatus::done;
   try {
     ThreadTeam team(request.threads);
-    const auto model = prepared.make_part(ranks);
+    const auto model = prepared.make_part(team, ranks);
     run::follow(*model, team, ranks);
   } catch (const NumericalError&) {  // of all processes
     throw;

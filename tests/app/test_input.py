@@ -228,10 +228,10 @@ class BadCase(InputTest):
         took = re.search(r"\n! This run would take (\d+) (h .*|days|months|years)\. Options:\n", said)
         self.assertTrue(took, said)
         options = said[took.end():]
+        # Single precision is not among them everywhere: it takes less time on some processors only.
         for change, text in ((r'--set "box\.sector=\d+ deg"', "sector"),
                              (r'--set "law\.critical-state\.bulk_modulus=1\.\d+ MPa" \\\n    --set "law\.critical-state\.shear_modulus=.*',
                               "soft"),
-                             (r"--set integration\.pair_precision=single", "pairs"),
                              (r'--set "bed\.spacing=2\.5 mm"', "particles across the outlet")):
             self.assertRegex(options, change + rf"\n      \d+ \S+.*: .*{text}")
         # That one is empty long before the half of its time; half of a run that ends before takes less time.

@@ -112,7 +112,7 @@ PreparedCase prepare_air(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.regime = air::regime_of_case(p);
   prepared.open = [p](const std::filesystem::path& folder) { return opened(p, folder); };
-  prepared.make_model = [p] { return run::any_model(AirModel(p)); };
+  prepared.make_model = [p](ThreadTeam&) { return run::any_model(AirModel(p)); };
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };

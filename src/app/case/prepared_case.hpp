@@ -59,9 +59,9 @@ struct PreparedCase {
   /// Opens the folder of this case's run for analysis. \throws FileError
   std::function<std::unique_ptr<OpenedRun>(const std::filesystem::path& folder)> open;
   /// The initial state, ready for begin() or resume().
-  std::function<std::unique_ptr<run::AnyModel>()> make_model;
+  std::function<std::unique_ptr<run::AnyModel>(ThreadTeam& team)> make_model;
   /// The part of the model that a process among several has. Null: it runs on one process only.
-  std::function<std::unique_ptr<run::AnyModel>(const Ranks& ranks)> make_part;
+  std::function<std::unique_ptr<run::AnyModel>(ThreadTeam& team, const Ranks& ranks)> make_part;
   /// What several processes share: as many processes are the most.
   struct {
     double count = 0;

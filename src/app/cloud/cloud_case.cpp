@@ -264,8 +264,10 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.open = [study = CloudStudy{read.run.title, frame_of(p)}](const std::filesystem::path& folder) {
     return std::make_unique<CloudRun>(folder, study);
   };
-  prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
-  prepared.make_part = [p, grains](const Ranks& ranks) { return run::any_model(Cloud(p, grains(), ranks)); };
+  prepared.make_model = [p, grains](ThreadTeam&) { return run::any_model(Cloud(p, grains())); };
+  prepared.make_part = [p, grains](ThreadTeam&, const Ranks& ranks) {
+    return run::any_model(Cloud(p, grains(), ranks));
+  };
   prepared.shared = {.count = n,
                      .name = "grains",
                      .key = given ? "particles.file" : "particles.count",

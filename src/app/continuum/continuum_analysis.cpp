@@ -149,6 +149,7 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
                         .level_ground = !p.wedge.half_angle && p.plates.empty() && p.vessel.empty(),
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
   setting.hand_discharge = discharge_by_hand(setup);
+  setting.hand_emptying_time = time_of_discharge_by_hand(setup, 0.99 * setting.mass());
   setting.averaging_time = setup.scales.averaging_time;
   setting.time_scale = setup.scales.time;
   setting.bed_packing = p.bed.packing;

@@ -317,8 +317,10 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.draw_start = [setup, title = read.run.title](const std::filesystem::path& path) {
     draw_bed(*setup, title, path);
   };
-  prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
-  prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
+  prepared.make_model = [setup](ThreadTeam& team) { return run::any_model(Continuum(setup, team)); };
+  prepared.make_part = [setup](ThreadTeam& team, const Ranks& ranks) {
+    return run::any_model(Continuum(setup, team, ranks));
+  };
   prepared.shared = {.count = continuum::forecast(*setup, end).particles,
                      .name = "particles",
                      .key = "bed.spacing",

@@ -118,6 +118,29 @@ double discharge_by_hand(const continuum::Layout& layout) {
   return rate;
 }
 
+double discharged_by_hand(const continuum::Layout& layout, double until) {
+  if (layout.given.vessel.empty()) return discharge_of_slit(layout) * until;
+  double mass = 0;
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) {
+    const continuum::Boundary& boundary = *layout.boundary;
+    const double open = outlet.gate ? boundary.patches()[boundary.patch_of_part(*outlet.gate)].time_away(until) : until;
+    mass += discharge_by_hand(layout, outlet) * open;
+  }
+  return mass;
+}
+
+double time_of_discharge_by_hand(const continuum::Layout& layout, double mass) {
+  constexpr double latest = 1e12;  // s
+  double before = 0, after = 1;
+  while (!(discharged_by_hand(layout, after) >= mass)) {
+    before = after, after *= 2;
+    if (after > latest) return no_value;
+  }
+  for (double middle = 0.5 * (before + after); before < middle && middle < after; middle = 0.5 * (before + after))
+    (discharged_by_hand(layout, middle) < mass ? before : after) = middle;
+  return after;
+}
+
 double internal_friction_by_hand(const continuum::Parameters& p, granular::FrictionTest test) {
   double friction = 0;
   if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().static_friction;

@@ -17,6 +17,11 @@ namespace talus::app {
 double discharge_by_hand(const continuum::Layout& layout);
 /// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
 double discharge_by_hand(const continuum::Layout& layout, const continuum::VesselOutlet& outlet);
+/// Mass that all outlets pass at these rates while their gates are open, kg. \param until from the opening of the gate,
+/// s
+double discharged_by_hand(const continuum::Layout& layout, double until);
+/// When it comes to a mass, s from the opening of the gate; nan: never.
+double time_of_discharge_by_hand(const continuum::Layout& layout, double mass);
 
 /// The angle of internal friction of the law, rad (physics/granular/friction_angle.hpp); 30 degrees where it has none.
 /// \param test Walker's, Enstad's and Jenike's formulas take Mohr's circle in plane strain, in which a friction counts

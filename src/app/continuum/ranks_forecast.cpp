@@ -55,7 +55,7 @@ PartOfBed largest_part(const std::array<double, 3>& sides, int parts, double rea
 AirOfStep air_of_step(const continuum::Setup& setup, ThreadTeam& team) {
   if (!setup.given.air.enabled) return {};
   constexpr double most = 8000, steps = 40;
-  continuum::Continuum model(std::make_shared<continuum::Setup>(continuum::sample(setup, most)));
+  continuum::Continuum model(std::make_shared<continuum::Setup>(continuum::sample(setup, most)), team);
   model.begin(team);
   for (int n = 0; n < steps; ++n) model.advance(team);
   const continuum::AirAround& air = model.state().air;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "analysis/statistics.hpp"
 #include "app/case/model_case.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "app/materials/materials.hpp"
@@ -57,9 +59,14 @@ double mean_share_present(const Setup& setup, double end) {
   if (setup.has_no_bed()) return 1;
   const double mass = setup.lattice.mass * continuum::bed_count(setup);
   if (!p.inlets.empty()) return 1 + mean_mass_come(setup, end) / mass;
-  const double rate = of_analytical * discharge_by_hand(setup);
-  if (!(rate > 0) || !(p.removal.below || p.box.floor == FaceKind::open)) return 1;
-  return continuum::mean_share_while_emptying(setup, end * rate / (mass * setup.copies));
+  if (!(discharge_by_hand(setup) > 0) || !(p.removal.below || p.box.floor == FaceKind::open)) return 1;
+  constexpr int times = 1000;
+  std::vector<double> discharged;
+  for (int n = 0; n < times; ++n) {
+    const double passed = of_analytical * discharged_by_hand(setup, (n + 0.5) / times * end);
+    discharged.push_back(std::min(1.0, passed / (mass * setup.copies)));
+  }
+  return mean(continuum::shares_left(setup, discharged));
 }
 
 /// The margins of lists in flow (set_list_reference()), whose particles have the mean speed of the vessel's cross
@@ -79,7 +86,7 @@ Parameters with_lists_in_flow(const Setup& setup) {
 double measure_particle(const Setup& given, double builds, ThreadTeam& team) {
   const auto setup = std::make_shared<const Setup>(given.with_same_bed(with_lists_in_flow(given)));
   const Parameters& p = setup->given;
-  continuum::Continuum model(setup);
+  continuum::Continuum model(setup, team);
   continuum::State& s = model.mutable_state();
   // Walls cost more where the bed presses against them.
   if (!p.vessel.empty())

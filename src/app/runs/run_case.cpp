@@ -188,12 +188,12 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
       print_error("talus: {}\n", warning.text);  // the others are in the validity report at the end
   }
 
+  ThreadTeam team(request.threads);
   std::unique_ptr<run::AnyModel> model;
   {
     const run::Waiting waiting("laying the bed");
-    model = prepared.make_model();
+    model = prepared.make_model(team);
   }
-  ThreadTeam team(request.threads);
   const run::LoopResult loop = run::run_loop(*model, team, folder.path(),
                                              {.end = prepared.run.end,
                                               .series_interval = prepared.run.series,
@@ -337,7 +337,7 @@ double end_of(const Manifest& manifest) {
 ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   if (request.dry_run) {
     ThreadTeam team(request.threads);
-    const auto model = prepared.make_model();
+    const auto model = prepared.make_model(team);
     model->begin(team);
     print("The case is valid and its start can be built: {} grains. Nothing was written.\n", model->snapshot().size());
     return ExitStatus::done;

@@ -63,6 +63,9 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, const
 
 }  // namespace
 
+Continuum::Continuum(std::shared_ptr<const Setup> setup, ThreadTeam& team, const Ranks& ranks)
+    : ranks_(ranks), setup_(std::move(setup)), state_(initial_state(*setup_, team, ranks.rank(), ranks.size())) {}
+
 Continuum::Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks)
     : ranks_(ranks), setup_(std::move(setup)), state_(initial_state(*setup_, ranks.rank(), ranks.size())) {}
 

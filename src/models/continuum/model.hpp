@@ -25,6 +25,8 @@ class Continuum {
   using State = continuum::State;
 
   /// Fills the bed. \param ranks outlive the model
+  Continuum(std::shared_ptr<const Setup> setup, ThreadTeam& team, const Ranks& ranks = one_process());
+  /// By one thread.
   explicit Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks = one_process());
   explicit Continuum(const Parameters& parameters) : Continuum(std::make_shared<const Setup>(parameters)) {}
 

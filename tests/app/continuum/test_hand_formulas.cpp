@@ -91,6 +91,22 @@ TEST(DischargeByHand, IsOfTheOutletsThatOpenFirst) {
   EXPECT_DOUBLE_EQ(discharge_by_hand(continuum::Layout(p)), 2 * one);
 }
 
+TEST(DischargeByHand, PassesNothingWhileGatesAreShut) {
+  continuum::Parameters p = gated({0.02, 0.046, 0.1}, 0.02, 0.008);
+  const double rate = discharge_by_hand(continuum::Layout(p));
+  const auto time_of = [&](double mass) { return time_of_discharge_by_hand(continuum::Layout(p), mass); };
+  EXPECT_NEAR(time_of(7 * rate), 7, 1e-9);
+  p.vessel.front().opens_after = 1, p.vessel.front().closes_after = 3;
+  EXPECT_NEAR(time_of(1.5 * rate), 2.5, 1e-9);
+  EXPECT_TRUE(std::isnan(time_of(2.5 * rate))) << "it is shut for good";
+  p.vessel.front().repeats_every = 5;
+  EXPECT_NEAR(time_of(2.5 * rate), 6.5, 1e-9);
+  EXPECT_NEAR(discharged_by_hand(continuum::Layout(p), 12), 5 * rate, 1e-9 * rate);
+  p.vessel.push_back(p.vessel.front());
+  p.vessel.back().name = "later", p.vessel.back().corner[0] = 0.06, p.vessel.back().opens_after = 2;
+  EXPECT_NEAR(discharged_by_hand(continuum::Layout(p), 3), 3 * rate, 1e-9 * rate);
+}
+
 TEST(CriticalOutletByHand, OfASquarePyramidIsThatOfACone) {
   continuum::Parameters p = small_silo();
   granular::CriticalState::Parameters law;

@@ -128,6 +128,16 @@ std::optional<double> Patch::closed_before(double time) const {
   return *closes_after + times * repeats_every.value_or(0);
 }
 
+double Patch::time_away(double until) const {
+  if (!opens_after || !(until > *opens_after)) return 0;
+  const double since = until - *opens_after;
+  if (!closes_after) return since;
+  const double each = *closes_after - *opens_after;
+  if (!repeats_every) return std::min(since, each);
+  const double times = std::floor(since / *repeats_every);
+  return times * each + std::min(since - times * *repeats_every, each);
+}
+
 bool Boundary::vessel_has_gates_due(double time) const {
   for (std::size_t n = 0; n < vessel_.patches(); ++n)
     if (vessel_.is_open(n) != patches_[patch_of_part(n)].is_away(time)) return true;

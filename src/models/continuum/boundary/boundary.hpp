@@ -46,6 +46,8 @@ struct Patch {
   bool is_away(double time) const;
   /// When it closed last before a time at which it is not away; nothing if it has not.
   std::optional<double> closed_before(double time) const;
+  /// For how long it has been away until a time, s.
+  double time_away(double until) const;
 };
 
 class Boundary {

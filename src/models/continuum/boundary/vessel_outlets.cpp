@@ -155,7 +155,7 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
       open.name = gate->name, open.middle.z = std::min(gate->middle.z, hole->middle.z);
       gate = open;
     }
-    gate->opens_after = v.opens_after;
+    gate->opens_after = v.opens_after, gate->gate = n;
     outlets.push_back(*gate);
   }
   if (outlets.empty() && !all.empty()) {

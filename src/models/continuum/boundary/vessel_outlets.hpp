@@ -2,6 +2,7 @@
 /// What grains leave a vessel through.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct VesselOutlet {
   double narrow = 0, length = 0;  ///< the narrower side and the other one, at any angle, m
   /// Whether it goes on beyond both faces of the box that it reaches, along x or y: a slot without ends.
   bool endless_along_x = false, endless_along_y = false;
-  double opens_after = 0;  ///< s after the opening of the gate, of one that a gate shuts
+  double opens_after = 0;                ///< s after the opening of the gate, of one that a gate shuts
+  std::optional<std::size_t> gate = {};  ///< number of the part that shuts it
 
   /// Whether a place is above or below it, or no farther beside than a margin, m.
   bool is_beside(const Vector3& x, double margin) const;

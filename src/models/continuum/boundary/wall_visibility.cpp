@@ -33,17 +33,20 @@ WallVisibility::WallVisibility(const Surface& surface, std::span<const Vector3> 
   const std::size_t first = place.size() - compared;
   const std::span<const Vector3> places = place.subspan(first);
   const CellGrid grid(places, reach);
-  for (std::uint32_t p = 0; p < compared; ++p)
+  for (std::uint32_t p = 0; p < compared; ++p) {
+    const std::uint32_t own = part[first + p];
+    Side* side = nullptr;
+    std::uint32_t of = 0;
     grid.for_each_candidate(places[p], [&](std::uint32_t q) {
       const Vector3 d = places[p] - places[q];
       if (p == q || dot(d, d) > reach * reach) return;
-      const std::uint32_t own = part[first + p], other = part[first + q];
+      const std::uint32_t other = part[first + q];
+      if (!side || of != other) side = &side_[key_of(own, other)], of = other;  // those of a part stand together
       const double height = dot(normal[first + q], d) / spacing,
                    slack = own == other ? in_the_plane_of_own : in_the_plane;
-      if (!(std::abs(height) > slack)) return;
-      Side& side = side_[key_of(own, other)];
-      side = side | (height > 0 ? Side::above : Side::below);
+      if (std::abs(height) > slack) *side = *side | (height > 0 ? Side::above : Side::below);
     });
+  }
 }
 
 Side WallVisibility::side_of(std::uint32_t part, std::uint32_t other) const {

@@ -49,7 +49,7 @@ void add_bed(const Layout& layout, std::int64_t tag, State& state) {
 
 }  // namespace
 
-State initial_state(const Setup& setup, int part, int parts) {
+State initial_state(const Setup& setup, ThreadTeam& team, int part, int parts) {
   const Parameters& parameters = setup.given;
   const Material& material = setup.material;
   State state;
@@ -66,7 +66,7 @@ State initial_state(const Setup& setup, int part, int parts) {
                .lasting_rate = draws_by_lasting_rate(parameters)};
   for (const std::size_t n : setup.beds) add_bed(setup.with_bed_alone(n), tag_of(parameters, n), state);
   const std::size_t given = parameters.bed.given ? parameters.bed.given->position.size() : 0;
-  fit_to_walls(*setup.boundary, parameters.bed.spacing, given, state.position);
+  fit_to_walls(team, *setup.boundary, parameters.bed.spacing, given, state.position);
   displace(parameters, state.position);
   if (state.has.mass_ratio) lay_levels(setup, state);
   state.population = initial_population(setup, state.position.size());
@@ -101,6 +101,11 @@ State initial_state(const Setup& setup, int part, int parts) {
     state.air.acceleration.assign(count, Vector3{});
   }
   return state;
+}
+
+State initial_state(const Setup& setup, int part, int parts) {
+  ThreadTeam team;
+  return initial_state(setup, team, part, parts);
 }
 
 }  // namespace talus::continuum

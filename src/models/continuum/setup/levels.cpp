@@ -162,15 +162,18 @@ double share_of_particles(const Layout& layout) {
   return particles.empty() ? 1 : sum / static_cast<double>(particles.size());
 }
 
-double mean_share_while_emptying(const Layout& layout, double end) {
-  if (layout.given.levels.count == 0) return end < 1 ? 1 - 0.5 * end : 0.5 / end;
-  double sum = 0, of_all = 0, above = 1;
-  const auto particles = particles_by_height(layout);
-  for (const auto& [height, count] : particles) {
-    sum += count * std::min(end, above) / end, of_all += count;
-    above -= 1 / static_cast<double>(particles.size());
+std::vector<double> shares_left(const Layout& layout, std::span<const double> shares_of_mass) {
+  std::vector<double> below{0}, left;  // how many lie below each of those of bed.spacing, and below all
+  if (layout.given.levels.count > 0)
+    for (const auto& [height, count] : particles_by_height(layout)) below.push_back(below.back() + count);
+  const std::size_t last = below.size() - 1;
+  for (const double share : shares_of_mass) {
+    const double stay = 1 - share, place = stay * static_cast<double>(last);
+    const std::size_t n = std::min(static_cast<std::size_t>(place), last);
+    const double of_next = n < last ? (place - static_cast<double>(n)) * (below[n + 1] - below[n]) : 0;
+    left.push_back(last > 0 ? (below[n] + of_next) / below[last] : stay);
   }
-  return of_all > 0 ? sum / of_all : 1;
+  return left;
 }
 
 namespace {

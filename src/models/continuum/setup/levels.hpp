@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -120,9 +121,9 @@ class Levels {
 /// mass ratio that is wanted.
 double share_of_particles(const Layout& layout);
 
-/// Share of the particles of the start that are there in the mean until `end`, in times in which the bed empties at a
-/// constant rate, what is highest first: finer ones near an outlet stay the longest.
-double mean_share_while_emptying(const Layout& layout, double end);
+/// Shares of the particles of the start that are left where shares of the mass, 0 to 1, have left, what is highest
+/// first: finer ones near an outlet stay the longest.
+std::vector<double> shares_left(const Layout& layout, std::span<const double> shares_of_mass);
 
 /// What levels of a case cannot be, by its keys alone, and in its layout if that is sound.
 std::vector<Problem> check_levels(const Parameters& parameters);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/parallel.hpp"
@@ -34,8 +35,12 @@ double slope_of(const Plane& plane) {
   return plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y;
 }
 
-/// The planes of the smooth parts of the walls that a particle sees, each at the place nearest to it.
-std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double within) {
+struct WallsNear {
+  double distance = std::numeric_limits<double>::infinity();  ///< of the nearest, if it is within that asked for, m
+  std::vector<Plane> planes;  ///< of the smooth parts that a particle sees, each at the place nearest to it
+};
+
+WallsNear walls_near(const Surface& surface, const Vector3& x, double within) {
   struct Near {
     std::uint32_t triangle;
     Vector3 foot;
@@ -55,13 +60,17 @@ std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double 
     else if (distance < same->distance)
       *same = {t, foot, distance};
   }
-  std::vector<Plane> planes;
+  WallsNear found;
+  for (const Near& near : parts) found.distance = std::min(found.distance, near.distance);
   for (const Near& near : parts) {
     const Vector3 normal = (1 / near.distance) * (x - near.foot);
     const bool is_within = std::abs(dot(normal, surface.normal(near.triangle))) > min_cosine;
-    if (is_within && !surface.blocks(x, near.foot + 0.01 * (x - near.foot))) planes.push_back({near.foot, normal});
+    if (!is_within) continue;
+    const bool is_nearest = !(near.distance > found.distance);  // nothing stands between
+    if (is_nearest || !surface.blocks(x, near.foot + 0.01 * (x - near.foot)))
+      found.planes.push_back({near.foot, normal});
   }
-  return planes;
+  return found;
 }
 
 /// Of one on another that is d away; d in spacings. Its potential falls to zero at the reach.
@@ -118,11 +127,11 @@ void bring_back(const Domain& domain, Vector3& x, Vector3& began) {
 
 }  // namespace
 
-void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, std::vector<Vector3>& positions) {
+void fit_to_walls(ThreadTeam& team, const Boundary& boundary, double spacing, std::size_t first,
+                  std::vector<Vector3>& positions) {
   const Surface& surface = boundary.vessel();
   const Domain& domain = boundary.domain();
   if (surface.is_empty()) return;
-  ThreadTeam team;
   Neighbourhood neighbourhood(domain, surface);
   const std::size_t count = positions.size();
   const std::vector<double> radius(count, 0.5 * reach * spacing);
@@ -135,22 +144,26 @@ void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, s
       neighbourhood.build(team, positions, radius, skin * spacing);
       next = positions, moved = 0;
     }
-    double largest = 0;
-    for (std::size_t i = first; i < count; ++i) {
+    /// \returns how far it moves, in spacings
+    const auto move_on = [&](std::size_t i) {
       const Vector3 x = positions[i];
-      if (neighbourhood.distance_from_vessel(i) > (moves_within + 0.5 * skin) * spacing) continue;
-      const std::vector<Plane> planes = planes_near(surface, x, moves_within * spacing);
+      if (neighbourhood.distance_from_vessel(i) > (moves_within + 0.5 * skin) * spacing) return 0.0;
+      const auto [nearest, planes] = walls_near(surface, x, moves_within * spacing);
       const double share = share_of(x, planes, spacing);
-      if (!(share > 0)) continue;
+      if (!(share > 0)) return 0.0;
       Vector3 move = (gain * share) * push_on(i, positions, neighbourhood, planes, spacing);
       if (const double size = norm(move); size > max_move) move = (max_move / size) * move;
       Vector3 to = x + spacing * move;
       for (const Plane& plane : planes) to += off_wall(plane, to, spacing);
       const bool is_far = norm(to - lattice[i]) > max_way * spacing;
-      if (is_far || surface.blocks(x, to) || domain.bounce(x, to)) continue;
+      const bool may_cross = !(norm(to - x) < 0.99 * nearest);
+      if (is_far || (may_cross && surface.blocks(x, to)) || domain.bounce(x, to)) return 0.0;
       next[i] = to;
-      largest = std::max(largest, norm(move));
-    }
+      return norm(move);
+    };
+    const double largest = reduce(
+        team, count - first, 0.0, [&](std::size_t n) { return move_on(first + n); },
+        [](double a, double b) { return std::max(a, b); });
     moved += largest * spacing;
     positions = next;
     if (largest < settled) break;

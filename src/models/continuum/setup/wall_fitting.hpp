@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/boundary/boundary.hpp"
 
@@ -21,6 +22,7 @@ namespace talus::continuum {
 ///
 /// \param spacing of the particles, m \param first number of those that may move; the rest stay
 /// \param positions m
-void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, std::vector<Vector3>& positions);
+void fit_to_walls(ThreadTeam& team, const Boundary& boundary, double spacing, std::size_t first,
+                  std::vector<Vector3>& positions);
 
 }  // namespace talus::continuum

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "models/continuum/level_cases.hpp"
 
@@ -99,15 +100,16 @@ TEST(Levels, FewerParticlesAreForeseenAsTheyAreLaid) {
 
 TEST(Levels, FinerParticlesNearAnOutletStayTheLongestWhileABedEmpties) {
   Parameters p = bed_of_levels(0);
-  EXPECT_DOUBLE_EQ(mean_share_while_emptying(setup_of(p), 2), 0.25);
-  EXPECT_DOUBLE_EQ(mean_share_while_emptying(setup_of(p), 0.5), 0.75);
+  const std::vector<double> times{0, 0.25, 1};
+  EXPECT_EQ(shares_left(setup_of(p), times), (std::vector<double>{1, 0.75, 0}));
   p = bed_of_levels(1);
   (*p.levels.low)[2] = 0, (*p.levels.high)[2] = 2 * spacing;
   const auto below = setup_of(p);
-  EXPECT_GT(mean_share_while_emptying(below, 2), 0.3);
-  EXPECT_LT(mean_share_while_emptying(below, 2), 0.5);
-  EXPECT_GT(mean_share_while_emptying(below, 0.5), mean_share_while_emptying(below, 2));
-  EXPECT_NEAR(mean_share_while_emptying(below, 1e-6), 1, 1e-6);
+  const std::vector<double> left = shares_left(below, times);
+  EXPECT_DOUBLE_EQ(left[0], 1);
+  EXPECT_GT(left[1], 0.76);
+  EXPECT_LT(left[1], 1);
+  EXPECT_EQ(left[2], 0);
 }
 
 TEST(Levels, WhatCannotBeIsNamed) {

@@ -90,11 +90,18 @@ TEST(WallFitting, ALatticeThatFitsStays) {
   for (std::size_t i = 0; i < fitted.size(); ++i) EXPECT_NEAR(norm(fitted[i] - lattice[i]), 0, 0.02 * spacing);
 }
 
+TEST(WallFitting, IsTheSameByAnyNumberOfThreads) {
+  const auto setup = setup_of(silo());
+  ThreadTeam team(3);
+  EXPECT_EQ(initial_state(setup, team).position, initial_state(setup).position);
+}
+
 TEST(WallFitting, ParticlesOfAFileStay) {
   const Parameters p = silo();
   std::vector<Vector3> positions = bed_positions(Layout(p));
   const std::vector<Vector3> lattice = positions;
-  fit_to_walls(Boundary(p), spacing, lattice.size() / 2, positions);
+  ThreadTeam team;
+  fit_to_walls(team, Boundary(p), spacing, lattice.size() / 2, positions);
   EXPECT_TRUE(std::equal(lattice.begin(), lattice.begin() + static_cast<std::ptrdiff_t>(lattice.size() / 2),
                          positions.begin()));
   EXPECT_NE(positions, lattice);
