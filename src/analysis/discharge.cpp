@@ -186,9 +186,13 @@ double correlation_time(std::span<const double> values) {
 
 double error_of_blocks(const Curve& cumulative, double length, double from, double to) {
   constexpr double in_length = 4, times = 3, max_blocks = 10;
-  const Curve fine = mean_rates(cumulative, length / in_length, length / in_length, from, to);
+  const auto is_within = [&](double t) { return from <= t && t <= to; };
+  const auto points = std::count_if(cumulative.time.begin(), cumulative.time.end(), is_within);
+  const double apart = (to - from) / std::max(1.0, static_cast<double>(points - 1));  // between them nothing is known
+  const double step = std::max(length / in_length, apart);
+  const Curve fine = mean_rates(cumulative, step, step, from, to);
   const double count = static_cast<double>(fine.value.size());
-  const double block = std::max(times * correlation_time(fine.value), in_length);
+  const double block = std::max(times * correlation_time(fine.value), length / step);
   const double blocks = std::min(max_blocks, std::floor(count / block));
   if (!(blocks >= static_cast<double>(fewest))) return no_value;
   const double each = (to - from) / blocks;

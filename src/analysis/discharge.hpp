@@ -69,7 +69,8 @@ Plateau find_plateau(const Curve& cumulative, double length, double spread, doub
 
 /// Half width of the 95 % interval of the mean rate over from..to, from the means of five to ten blocks of equal
 /// length: Student's t times their standard error. A block is at least as long as `length`, and as three correlation
-/// times of the means over a quarter of it, so that blocks are independent; nan where there is no room for five.
+/// times of the means over a quarter of it, or over the time between the data if that is longer, so that blocks are
+/// independent; nan where there is no room for five.
 /// Source: Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461 (blocks); Sokal, Monte Carlo Methods (1997) (length)
 double error_of_blocks(const Curve& cumulative, double length, double from, double to);
 

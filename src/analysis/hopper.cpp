@@ -159,7 +159,8 @@ std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, dou
     };
     if (passed.value.empty()) continue;
     add("discharged_mass", "kg", passed.value.back());
-    add("discharge_rate", "kg/s", from < to ? mean_rate(passed, from, to) : no_value);
+    const double open = outlet.gate ? outlet.gate->time_away(from, to) : to - from;
+    add("discharge_rate", "kg/s", open > 0 ? mean_rate(passed, from, to) * (to - from) / open : no_value);
     if (outlet.hand_discharge > 0) add("discharge_rate_beverloo", "kg/s", outlet.hand_discharge);
     add("particles_across", "1", outlet.across / run.setting.shape.spacing);
     add("grains_across", "1", outlet.across / run.setting.grain_diameter);

@@ -17,6 +17,7 @@
 #include "analysis/measure.hpp"
 #include "analysis/wall_loads.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "numerics/geometry/gate_times.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 
@@ -59,6 +60,7 @@ struct OutletSetting {
   std::string name;
   double hand_discharge = 0;  ///< by an analytical estimate, kg/s; 0: none
   double across = 0;          ///< its narrower side, m
+  std::optional<GateTimes> gate = {};
 };
 
 /// What the case says. SI.

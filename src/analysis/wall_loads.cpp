@@ -86,10 +86,15 @@ struct Specific {
 BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time, double from, double to,
                  double averaging_time) {
   const Specific impulse(series, band, gate_time);
+  const double there = to - from - (band.gate ? band.gate->time_away(from, to) : 0);
+  const auto in_flow = [&](const Curve& curve) {
+    if (there == to - from) return mean_rate(curve, from, to);
+    return there > 0 ? mean_rate(curve, from, to) * (to - from) / there : no_value;
+  };
   BandLoad load{.pressure_at_rest = mean_rate(impulse.normal, -averaging_time, 0),
                 .shear_at_rest = mean_rate(impulse.shear, -averaging_time, 0),
-                .pressure_in_flow = mean_rate(impulse.normal, from, to),
-                .shear_in_flow = mean_rate(impulse.shear, from, to),
+                .pressure_in_flow = in_flow(impulse.normal),
+                .shear_in_flow = in_flow(impulse.shear),
                 .pressure_largest = no_value,
                 .time_of_largest = no_value};
   if (impulse.normal.time.empty()) return load;

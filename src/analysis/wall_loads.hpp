@@ -4,12 +4,14 @@
 /// part of one by "normal_impulse_NAME" and "shear_impulse_NAME" (models/continuum/boundary/vessel_loads.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/curve.hpp"
 #include "base/vector.hpp"
+#include "numerics/geometry/gate_times.hpp"
 #include "numerics/run_record.hpp"
 
 namespace talus {
@@ -36,6 +38,7 @@ struct BandOfWall {
   double low = 0, high = 0, area = 0;  ///< m, m^2
   double sine = 0;                     ///< of the wall's angle with the vertical: 0 upright, 1 level
   bool is_bare = false;                ///< no grain has touched it
+  std::optional<GateTimes> gate = {};  ///< of one that is taken away
 
   bool is_upright() const { return sine < 1e-3; }
 };
@@ -43,7 +46,7 @@ struct BandOfWall {
 /// Stresses on a band, Pa: across it, and along it downwards (nan on a level one).
 struct BandLoad {
   double pressure_at_rest = 0, shear_at_rest = 0;  ///< over T before the gate opened; nan without that
-  double pressure_in_flow = 0, shear_in_flow = 0;  ///< over the window
+  double pressure_in_flow = 0, shear_in_flow = 0;  ///< over the window, of a gate while it is there; nan: it never is
   double pressure_largest = 0;                     ///< largest mean over T/2 since the gate opened, one every T/20
   double time_of_largest = 0;                      ///< its middle, from the opening, s
 };

@@ -15,6 +15,7 @@
 #include "app/models/models.hpp"
 #include "app/project/project.hpp"
 #include "app/report/report.hpp"
+#include "app/runs/run_case.hpp"
 #include "base/text.hpp"
 #include "io/case_file.hpp"
 #include "io/report_page.hpp"
@@ -53,6 +54,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
                        .what = "is a run's folder; its case says what is measured",
                        .allowed = "a snapshot's file with --as, --radius, --column; a folder without them"}});
   const RunFolder folder(options.file);
+  check_files_of_run(folder);
   const std::unique_ptr<OpenedRun> run = open_run(folder.path());
   Summary summary = read_summary(folder.summary());
   auto waiting = std::make_unique<run::Waiting>("analysing the run, drawing pictures, writing the report");
@@ -85,7 +87,10 @@ ExitStatus report(const ReportOptions& options) {
     std::move(of_folder.comparisons.begin(), of_folder.comparisons.end(), std::back_inserter(request.comparisons));
   }
   std::vector<std::string> names;
-  for (const ReportEntry& entry : request.runs) names.push_back(entry.name);
+  for (const ReportEntry& entry : request.runs) {
+    check_files_of_run(RunFolder(entry.folder));
+    names.push_back(entry.name);
+  }
   const bool one = options.folders.size() == 1;
   request.title = request.runs.size() == 1 && request.runs.front().members == 1
                       ? title_of_run(request.runs.front().folder)

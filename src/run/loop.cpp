@@ -186,12 +186,14 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   CheckpointFiles checkpoints(folder);
   StepGuard guard;
   SnapshotWriter snapshots(folder, options.snapshot_interval);
-  double next_row_time = 0;
+  double next_row_time = 0, time_of_row = 0;
+  std::uint64_t rows = 0;  // but for the last of a run that has ended between two
 
   std::vector<NamedValue> row;  // the last
   auto add_row = [&](SeriesWriter& series) {
     row = row_of(model, observers);
     append(series, row);
+    rows = series.position(), time_of_row = model.time();
     if (options.series_interval > 0)
       next_row_time = options.series_interval * (std::floor(model.time() / options.series_interval) + 1);
   };
@@ -212,9 +214,11 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
       const Waiting waiting("finding neighbours");
       model.resume(team, *checkpoint);
     }
-    std::uint64_t rows = 0;
     double wall = 0, cpu = 0;
     checkpoint->get("run/rows", rows);
+    checkpoint->get("run/rows_to_keep", rows);  // those of earlier versions have none
+    time_of_row = model.time();
+    checkpoint->get("run/time_of_row", time_of_row);
     checkpoint->get("run/next_row_time", next_row_time);
     checkpoint->get("run/wall_seconds", wall);
     checkpoint->get("run/cpu_seconds", cpu);
@@ -239,6 +243,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     CheckpointWriter writer(options.fingerprint);
     model.save(writer);
     writer.put("run/rows", series->position());
+    writer.put("run/rows_to_keep", rows);
+    writer.put("run/time_of_row", time_of_row, "s");
     writer.put("run/sum_of_series", std::uint64_t{series->sum()});
     snapshots.save(writer);
     writer.put("run/next_row_time", next_row_time, "s");
@@ -286,9 +292,12 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     line.update(row);
   }
   line.finish();
-  if (!result.ended.empty() && row.front().value < model.time()) add_row(*series);
   const Waiting waiting("writing the last files");
-  if (!result.interrupted) snapshots.take_last(model);
+  if (!result.interrupted) {
+    // A later end replaces both.
+    if (time_of_row < model.time()) append(*series, row_of(model, observers));
+    snapshots.take_last(model);
+  }
   save();
   result.wall_seconds = clock.wall();
   result.cpu_seconds = clock.cpu();

@@ -54,7 +54,8 @@ struct FilesFound {
 };
 
 /// Compares the series up to the checkpoint, and the snapshots that it counts, with the checksums that it holds.
-/// \param ended whether the run has: the snapshot of its last state, which a later end replaces, is compared too
+/// \param ended whether the run has: the snapshot of its last state, which a later end replaces, is compared too, and
+/// the series has no more rows
 /// \throws FileError if a file cannot be read
 FilesFound compare_files(const RunFolder& folder, const CheckpointReader& checkpoint, bool ended);
 

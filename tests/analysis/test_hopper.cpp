@@ -177,7 +177,7 @@ TEST(Hopper, TheGatesTime) {
 
 TEST(Hopper, EachOfSeveralOutletsHasItsQuantities) {
   HopperRun run{.setting = setting(), .series = {}, .gate_time = 0.1};
-  run.setting.outlets = {{"west", 0.25, 0.01}, {"east", 0, 0.02}};
+  run.setting.outlets = {{.name = "west", .hand_discharge = 0.25, .across = 0.01}, {.name = "east", .across = 0.02}};
   run.series.names = {"time", "discharge_rate_west", "discharge_rate_east"};
   run.series.units = {"s", "kg/s", "kg/s"};
   run.series.columns = {{0, 0.1, 0.2, 0.3, 0.4}, {0, 0, 0.2, 0.2, 0.2}, {0, 0, 0.1, 0.1, 0.1}};
@@ -196,6 +196,11 @@ TEST(Hopper, EachOfSeveralOutletsHasItsQuantities) {
   const auto unsteady = outlet_quantities(run, no_value, no_value);
   EXPECT_TRUE(std::isnan(value(unsteady, "discharge_rate_west")));
   EXPECT_NEAR(value(unsteady, "discharged_mass_east"), 0.025, 1e-12);
+  run.setting.outlets[0].gate = {.opens_after = 0, .closes_after = 0.2, .repeats_every = {}};
+  run.setting.outlets[1].gate = {.opens_after = 0, .closes_after = 0.1, .repeats_every = {}};
+  const auto closing = outlet_quantities(run, 0.1, 0.3);
+  EXPECT_NEAR(value(closing, "discharge_rate_west"), 0.4, 1e-12) << "what passed, while it was open";
+  EXPECT_TRUE(std::isnan(value(closing, "discharge_rate_east")));
 }
 
 }  // namespace

@@ -86,6 +86,16 @@ TEST(ErrorOfBlocks, TooShortAStretchHasNone) {
   EXPECT_TRUE(std::isnan(found.error));
 }
 
+TEST(ErrorOfBlocks, BetweenTheDataNothingIsKnown) {
+  Curve coarse;  // a few of the data, between which the curve is straight
+  const Curve all = noisy(4, 4, 0.9, 0.5);
+  for (std::size_t n = 0; n < all.time.size(); n += 400)
+    coarse.time.push_back(all.time[n]), coarse.value.push_back(all.value[n]);
+  EXPECT_TRUE(std::isfinite(error_of_blocks(all, 0.02, 0, 4)));
+  EXPECT_EQ(coarse.time.size(), 6u);
+  EXPECT_TRUE(std::isnan(error_of_blocks(coarse, 0.02, 0.8, 3.2)));
+}
+
 TEST(ErrorOfBlocks, ATrendIsPartOfTheError) {
   const double level = error_of_blocks(noisy(3, 4, 0, 0.1), 0.02, 0, 4);
   const double rising = error_of_blocks(noisy(3, 4, 0, 0.1, 0.2), 0.02, 0, 4);

@@ -92,6 +92,15 @@ TEST(BandLoads, AreForcesOverTheAreaAtRestInFlowAndAtTheirLargest) {
   EXPECT_NEAR(load.time_of_largest, 0.055, 1e-9);
 }
 
+TEST(BandLoads, OfAGateAreWhileItIsThere) {
+  BandOfWall gate{.name = "wall_2", .patch = 0, .low = 0, .high = 1, .area = 2, .sine = 0};
+  gate.gate = {.opens_after = 0.12, .closes_after = 0.17, .repeats_every = {}};
+  EXPECT_NEAR(load_of(pressed(), gate, 0.1, 0.1, 0.2, 20e-3).pressure_in_flow, 4, 1e-9) << "for half of the time";
+  gate.gate->closes_after = std::nullopt;
+  EXPECT_TRUE(std::isnan(load_of(pressed(), gate, 0.1, 0.15, 0.2, 20e-3).pressure_in_flow));
+  EXPECT_NEAR(load_of(pressed(), gate, 0.1, 0.15, 0.2, 20e-3).pressure_at_rest, 3, 1e-9);
+}
+
 TEST(BandLoads, ALevelBandHasNoShearAndARunWithoutRestNoLoadAtRest) {
   const BandOfWall floor{.name = "floor", .patch = 1, .low = 0, .high = 0, .area = 4, .sine = 1};
   const BandLoad load = load_of(pressed(), floor, 0, 0.25, 0.3, 20e-3);

@@ -260,7 +260,7 @@ class Calibrate(ProgramTest):
         path.write_text(text + '\n[walls.steel]\nvalue = 0.3\nadhesion = "100 Pa"\n')
         said = self.said("hopper-design", "--material", "my-powder.toml", "--silo-diameter", "6 m", "--silo-height", "12 m")
         self.assertRegex(said, r"angle of the wall at the outlet +30\.\d deg +29\.\d deg")
-        self.assertRegex(said, r"half angle there, at most +26\.\d deg +15\.\d deg")
+        self.assertRegex(said, r"half angle there, at most +21\.\d deg +15\.\d deg")
         self.assertRegex(said, r"! sigma_1 of [\d.]+ kPa: the values of my-powder hold up to 8 kPa")
         words = ("hopper-design", "--material", "my-powder.toml", "--outlet", "300 mm", "--half-angle")
         self.assertRegex(self.said(*words, "25 deg"), r"discharge, coarse grains +\S+ t/h +funnel")

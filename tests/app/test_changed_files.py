@@ -31,6 +31,8 @@ class ChangedFiles(ProgramTest):
         said = self.talus("run", "case.toml", "--out", "r", "--resume", *QUICK, *settings, status=4).stderr
         self.assertRegex(said, f"talus: r: cannot be resumed, 1 of its files changed since .*{name}: its checksum is")
         self.assertEqual(tree(self.folder), before)
+        self.assertIn(name, self.talus("analyze", "r", status=4).stderr)
+        self.assertEqual(tree(self.folder), before, "nothing is measured of it")
         said = self.talus("check", "r", status=4)
         self.assertRegex(said.stdout, f"  ! r/{name}: its checksum is")
         self.assertIn("1 of 1 run folders has been modified", said.stderr)

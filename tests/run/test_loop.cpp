@@ -123,6 +123,25 @@ TEST(Loop, ALaterEndGoesOnAsIfItHadBeenTheFirst) {
   EXPECT_EQ(names_in(folder / "r/snapshots"), names_in(folder / "whole/snapshots"));
 }
 
+TEST(Loop, TheLastRowIsOfTheEndUntilALaterOne) {
+  const ScratchFolder folder;
+  const auto steps = [](std::uint64_t) { return 1e-2; };
+  LoopOptions options{.end = 2, .series_interval = 0.3};
+  loop(folder / "whole", steps, options);
+  options.end = 1;
+  loop(folder / "r", steps, options);
+  const auto times = read_series(folder / "r/series.csv").column("time");
+  EXPECT_THAT(std::vector<double>(times.begin(), times.end()), SizeIs(5u)) << "0, 0.3, 0.6, 0.9 s and the end";
+  EXPECT_NEAR(times.back(), 1, 1.1e-2);
+  const std::string ended = content_of(folder / "r/series.csv");
+  options.resume = true;
+  loop(folder / "r", steps, options);
+  EXPECT_EQ(content_of(folder / "r/series.csv"), ended) << "nothing is left to do";
+  options.end = 2;
+  loop(folder / "r", steps, options);
+  EXPECT_EQ(content_of(folder / "r/series.csv"), content_of(folder / "whole/series.csv"));
+}
+
 TEST(Loop, LogsTheWayNowAndThen) {
   const ScratchFolder folder;
   std::vector<std::string> lines;

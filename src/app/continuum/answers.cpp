@@ -54,11 +54,16 @@ std::string too_little_left(double discharged) {
 /// Of each of several outlets what passes it.
 std::vector<Answer> answers_of_outlets(const continuum::Layout& layout, const std::vector<NamedValue>& quantities) {
   std::vector<Answer> answers;
+  const double from = value_of(quantities, "discharge_steady_from"), to = value_of(quantities, "discharge_steady_to");
   for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) {
     const double rate = value_of(quantities, "discharge_rate_" + outlet.name),
                  hand = value_of(quantities, "discharge_rate_beverloo_" + outlet.name);
-    if (!std::isfinite(rate)) continue;
-    answers.push_back({"Steady discharge through " + outlet.name, rate_text(rate, no_value), {}});
+    const bool was_shut = from < to && outlet.gate && !(outlet.gate->time_away(from, to) > 0);
+    if (!std::isfinite(rate) && !was_shut) continue;
+    answers.push_back(
+        {"Steady discharge through " + outlet.name,
+         was_shut ? fmt::format("shut from {} to {}", time_text(from), time_text(to)) : rate_text(rate, no_value),
+         {}});
     if (hand > 0) answers.back().by_hand = rate_text(hand, no_value);
   }
   return answers;
@@ -308,7 +313,7 @@ std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& qu
   const double measured = value_of(quantities, "wall_pressure_ratio");
   const bool is_measured = std::isfinite(measured);
   return fmt::format("Janssen, K {:.3g} {}, μ {:.3g}", is_measured ? measured : pressure_ratio_at_rest(shape.layout),
-                     is_measured ? "as measured" : "of the moduli", wall ? wall->friction : no_value);
+                     is_measured ? "as measured" : "of the law at rest", wall ? wall->friction : no_value);
 }
 
 /// What inlets were to bring in, kg; nan where one of them is not over. \param end of the run, from the opening of the
@@ -343,6 +348,8 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   for (Answer& answer : answers_of_outlets(setup, quantities)) answers.push_back(std::move(answer));
   const double left = value_of(quantities, "residual_fraction");
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
+  if (const double slope = value_of(quantities, "repose_angle_bin"); std::isnan(left) && slope > 0)
+    answers.push_back({"Slope of the heap at the end", fmt::format("{:.3g}°", slope), ""});
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
   const double outside = value_of(quantities, "outside_fraction");

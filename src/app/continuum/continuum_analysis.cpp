@@ -171,7 +171,7 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
     }
     if (outlets.size() > 1)
       for (const continuum::VesselOutlet& outlet : outlets)
-        setting.outlets.push_back({outlet.name, discharge_by_hand(setup, outlet), outlet.narrow});
+        setting.outlets.push_back({outlet.name, discharge_by_hand(setup, outlet), outlet.narrow, outlet.gate});
   }
   if (setup.outlet)
     setting.shape.outlet = {setup.outlet->height, setup.outlet->left, setup.outlet->right};

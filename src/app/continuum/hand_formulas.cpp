@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include "physics/granular/enstad.hpp"
+#include "physics/granular/material_path.hpp"
 #include "physics/granular/silo.hpp"
 
 namespace talus::app {
@@ -114,18 +117,15 @@ double discharge_by_hand(const continuum::Layout& layout) {
   double rate = 0;
   const double first = continuum::first_opening(layout.vessel_outlets);
   for (const continuum::VesselOutlet& outlet : layout.vessel_outlets)
-    if (!(outlet.opens_after > first)) rate += discharge_by_hand(layout, outlet);
+    if (!outlet.gate || !(outlet.gate->opens_after > first)) rate += discharge_by_hand(layout, outlet);
   return rate;
 }
 
 double discharged_by_hand(const continuum::Layout& layout, double until) {
   if (layout.given.vessel.empty()) return discharge_of_slit(layout) * until;
   double mass = 0;
-  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) {
-    const continuum::Boundary& boundary = *layout.boundary;
-    const double open = outlet.gate ? boundary.patches()[boundary.patch_of_part(*outlet.gate)].time_away(until) : until;
-    mass += discharge_by_hand(layout, outlet) * open;
-  }
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets)
+    mass += discharge_by_hand(layout, outlet) * (outlet.gate ? outlet.gate->time_away(until) : until);
   return mass;
 }
 
@@ -150,10 +150,19 @@ double internal_friction_by_hand(const continuum::Parameters& p, granular::Frict
 }
 
 double pressure_ratio_at_rest(const continuum::Layout& layout) {
-  if (!layout.given.law.is<granular::CriticalState>()) return no_value;
-  const auto& law = layout.given.law.of<granular::CriticalState>();
-  const double shear = law.shear_modulus / law.bulk_modulus;
-  return (1 - 2.0 / 3 * shear) / (1 + 4.0 / 3 * shear);
+  const continuum::Parameters& p = layout.given;
+  if (!p.law.is<granular::CriticalState>()) return no_value;
+  const auto& law = p.law.of<granular::CriticalState>();
+  const double load = bulk_density(p) * p.gravity.acceleration * layout.depth;
+  if (!(load > 0)) return no_value;
+  const granular::PathStretch settling{1, {}, {std::nullopt, std::nullopt, load, std::nullopt}};  // in a second
+  const double packing = std::max(p.bed.packing, law.reference_packing);                          // where grains touch
+  const SymmetricTensor3<> stress =
+      granular::follow_path(granular::CriticalState(law, p.grains.density, p.grains.diameter), std::span(&settling, 1),
+                            {.density = packing * p.grains.density, .points = 200})
+          .back()
+          .stress;
+  return stress.xx / stress.zz;
 }
 
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {

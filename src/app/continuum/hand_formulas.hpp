@@ -29,8 +29,8 @@ double time_of_discharge_by_hand(const continuum::Layout& layout, double mass);
 double internal_friction_by_hand(const continuum::Parameters& parameters,
                                  granular::FrictionTest test = granular::FrictionTest::plane_strain);
 
-/// K of a bed that settles without strain to the sides below yield, (1 - 2G/3B)/(1 + 4G/3B), B and G of the law
-/// critical-state; nan of other laws.
+/// K of a bed that settles without strain to the sides, under the weight of its depth: of a point of the law
+/// critical-state; nan of other laws. Below yield it is (1 - 2G/3B)/(1 + 4G/3B), and larger where grains yield.
 double pressure_ratio_at_rest(const continuum::Layout& layout);
 
 /// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties

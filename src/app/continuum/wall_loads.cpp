@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
@@ -22,16 +24,69 @@
 
 namespace talus::app {
 
+namespace {
+
+double area_below(const std::vector<Triangle>& triangles, double height) {
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    const auto [low, high] = std::minmax({t.corner[0].z, t.corner[1].z, t.corner[2].z});
+    if (low >= height) continue;
+    if (high <= height) {
+      sum += norm(t.area());
+      continue;
+    }
+    const std::vector<Vector3> part = clipped({t.corner.begin(), t.corner.end()}, 2, height, -1);
+    for (std::size_t n = 2; n < part.size(); ++n) sum += norm(Triangle{{part[0], part[n - 1], part[n]}, 0}.area());
+  }
+  return sum;
+}
+
+/// Fields lie in rows, which borders between bands of equal heights would cut: a border lies where the wall below it
+/// has the area of the fields below it.
+void set_borders(const continuum::Layout& layout, std::vector<continuum::LoadBand>& bands) {
+  constexpr double slack = 1e-6;
+  for (std::size_t first = 0, last = 0; first < bands.size(); first = last) {
+    double sum = 0;
+    for (last = first; last < bands.size() && bands[last].patch == bands[first].patch; ++last) sum += bands[last].area;
+    const std::vector<Triangle> triangles = triangles_of(layout.given, bands[first].patch);
+    const double whole = area_below(triangles, std::numeric_limits<double>::infinity());
+    double below = 0;
+    for (std::size_t n = first; n + 1 < last; ++n) {
+      below += bands[n].area;
+      const auto misses = [&](double height) { return area_below(triangles, height) / whole - below / sum; };
+      double border = bands[n].high;
+      if (std::abs(misses(border)) > slack) {
+        double low = bands[n].low, high = bands[last - 1].high;
+        for (int k = 0; k < 50; ++k) {
+          border = 0.5 * (low + high);
+          (misses(border) < 0 ? low : high) = border;
+        }
+      }
+      bands[n].high = bands[n + 1].low = border;
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<BandOfWall> bands_of(const continuum::Layout& layout) {
   const SurfaceFields fields = load_fields(layout);
   const std::vector<char> is_far = continuum::far_faces(layout, fields);
+  std::vector<continuum::LoadBand> of_fields = load_bands(layout.given, fields);
+  set_borders(layout, of_fields);
   std::vector<BandOfWall> bands;
-  for (const continuum::LoadBand& band : load_bands(layout.given, fields)) {
+  for (const continuum::LoadBand& band : of_fields) {
     double area = band.area, level = band.area * band.sine;
     for (const std::uint32_t n : band.fields)
       if (is_far[n]) area -= fields.all()[n].area, level -= fields.all()[n].area * std::abs(fields.all()[n].normal.z);
     if (!(area > 1e-9 * band.area)) area = level = 0;
-    bands.push_back({band.name, band.patch, band.low, band.high, area, area > 0 ? level / area : band.sine});
+    bands.push_back({.name = band.name,
+                     .patch = band.patch,
+                     .low = band.low,
+                     .high = band.high,
+                     .area = area,
+                     .sine = area > 0 ? level / area : band.sine,
+                     .gate = layout.boundary->patches()[layout.boundary->patch_of_part(band.patch)].gate});
   }
   return bands;
 }

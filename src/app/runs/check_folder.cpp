@@ -79,6 +79,15 @@ void check_resumable_files(const RunFolder& folder) {
   for (const std::string& path : found.missing) print_error("talus: {} is missing and is left out\n", path);
 }
 
+void check_files_of_run(const RunFolder& folder) {
+  const std::optional<CheckpointReader> checkpoint = CheckpointFiles(folder.path()).load();
+  if (!checkpoint) return;
+  const run::FilesFound found = run::compare_files(folder, *checkpoint, is_done(folder));
+  if (!found.changed.empty())
+    throw FileError(folder.path().string(), fmt::format("{} of its files changed since they were written: {}",
+                                                        found.changed.size(), fmt::join(found.changed, "; ")));
+}
+
 ExitStatus check_folder(const fs::path& path) {
   const std::vector<fs::path> runs = runs_in(path);
   if (runs.empty())

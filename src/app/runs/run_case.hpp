@@ -48,6 +48,10 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request);
 /// \throws FileError if the series or a snapshot is not what was written, or if no checkpoint is whole
 void check_resumable_files(const RunFolder& folder);
 
+/// Before a run is measured or shown again. Snapshots may be missing.
+/// \throws FileError if the series or a snapshot is not what was written, or if no checkpoint is whole
+void check_files_of_run(const RunFolder& folder);
+
 /// `talus check FOLDER`: compares the files of each run there, an ensemble's members too, with the checksums in its
 /// checkpoint, and says what it found.
 /// \returns done, or files if one has changed or is missing, or a checkpoint is damaged

@@ -331,7 +331,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
     lines.push_back(
         {"time between rows of the series over T/2", fmt::format("{:.3g}", apart / half),
          fmt::format("peaks are averages over T/2 = {:.3g} s, rates over T, or over the time between rows, if that is "
-                     "longer; what passes after the last row does not count: take a shorter output.series",
+                     "longer: take a shorter output.series",
                      half),
          apart > 2 * half});
   }

@@ -20,6 +20,7 @@ namespace {
 constexpr double min_across = 12;  // particles
 constexpr double min_outlet_over_axis = 2.8;
 constexpr double notable_part = 0.1;  // of an outlet, of a wall
+constexpr double nearly_all = 0.99;   // of an outlet
 constexpr double notable_viscosity = 0.2;
 constexpr double notable_compression = 0.05;
 
@@ -152,9 +153,11 @@ void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
     add_outlet(p, outlet.narrow, name, lines);
     if (const double covered = share_covered(setup, outlet); covered > 0)
       lines.push_back(
-          {"share of the outlet" + name + " with a wall just above", fmt::format("{:.2g}", covered),
-           "what is open there is narrower than the gate, by which the outlet's width and what follows from "
-           "it are taken: give the gate the size of the hole",
+          {"share of the outlet" + name + " with a wall in it or just above", fmt::format("{:.2g}", covered),
+           covered > nearly_all
+               ? "no grain leaves: a wall that is no gate shuts it, as the bottom of a closed body does"
+               : "what is open there is narrower than the gate, by which the outlet's width and what follows from "
+                 "it are taken: give the gate the size of the hole",
            covered > notable_part});
     if (const double blocked = share_blocked_below(setup, outlet); blocked > 0)
       lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),

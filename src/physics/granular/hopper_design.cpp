@@ -41,7 +41,8 @@ double area_of(HopperShape shape, double width, double length) {
 double mass_flow_half_angle(HopperShape shape, double friction, double internal) {
   if (shape == HopperShape::cone) return mass_flow_half_angle(friction, internal);
   const double wall = wall_angle(friction, internal) / degree;
-  const double limit = (std::exp(3.75 * std::pow(1.01, internal / degree / 10 - 3)) - wall) / 0.725;
+  const double limit = (std::exp(3.75 * std::pow(1.01, internal / degree / 10 - 3)) - wall) /
+                       (0.725 * std::pow(std::tan(internal), 0.2));
   return std::max(0.0, limit) * degree;
 }
 

@@ -17,9 +17,10 @@ namespace talus::granular {
 enum class HopperShape { wedge, cone };
 
 /// The largest half angle of mass flow. Of a cone mass_flow_half_angle() (silo.hpp); of a wedge, three times as long as
-/// wide at least, {exp[3.75 * 1.01^((delta - 30)/10)] - phi_w}/0.725 in degrees. A wall counts as rough as the grains
-/// at most. Range: delta from 30 degrees on, as the charts; below about 25 the wedge's falls under the cone's. Practice
-/// takes off 3 degrees. \param friction of the wall
+/// wide at least, {exp[3.75 * 1.01^((delta - 30)/10)] - phi_w}/[0.725 (tan delta)^(1/5)] in degrees, within 2 degrees
+/// of ter Borg's fit to the same chart from 30 to 70 degrees (test). A wall counts as rough as the grains at most.
+/// Range: delta from 30 degrees on, as the charts; below about 22 the wedge's falls under the cone's. Practice takes
+/// off 3 degrees. \param friction of the wall
 double mass_flow_half_angle(HopperShape shape, double friction, double internal);
 
 /// H, the width of an outlet over the height of its arch's own material, f_c/(rho_b g): 1 + theta/180 degrees of a

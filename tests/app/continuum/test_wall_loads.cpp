@@ -21,6 +21,24 @@ TEST(WallLoads, BandsAreThoseOfTheWalls) {
               1e-9);
 }
 
+TEST(WallLoads, BandsOfAConeHaveTheAreaOfTheirHeights) {
+  continuum::Parameters p = small_silo();
+  for (const double spacing : {2.5e-3, 3e-3, 4e-3}) {
+    p.bed.spacing = spacing;
+    double border = 0.06;
+    for (const BandOfWall& band : bands_of(continuum::Layout(p))) {
+      if (!band.name.starts_with("cone")) continue;
+      EXPECT_EQ(band.low, border) << band.name;
+      border = band.high;
+      const auto radius = [&](double z) { return p.vessel[1].lower_radius + (z - 0.06) / std::sqrt(3.0); };
+      const double slant = (band.high - band.low) * 2 / std::sqrt(3.0);
+      EXPECT_NEAR(band.area, continuum::half_turn * (radius(band.low) + radius(band.high)) * slant, 0.005 * band.area)
+          << band.name << " at " << spacing;
+    }
+    EXPECT_EQ(border, 0.09);
+  }
+}
+
 /// A bin of 60 by 60 by 90 mm, of sheets of 1 mm with both their faces, in one file, or of their inner faces.
 std::vector<Triangle> walls_of_bin(bool has_both_faces, bool has_divider = false) {
   using continuum::sheet;

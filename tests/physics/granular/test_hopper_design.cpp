@@ -45,6 +45,21 @@ TEST(HopperDesign, AWedgeEmptiesAtALargerAngleThanACone) {
     }
 }
 
+/// ter Borg (1986), as in Schulze, Powders and Bulk Solids (2008), chapter 10; for walls 3 degrees smoother than
+/// grains.
+double ter_borg(double wall, double delta) {
+  return (60.5 + std::atan((50 - delta) / 7.73) / degree / 15.07) *
+         (1 - wall / (42.3 + 0.131 * std::exp(0.06 * delta)));
+}
+
+TEST(HopperDesign, AWedgesHalfAngleIsThatOfAnotherFitToItsChart) {
+  for (const double delta : {30.0, 40.0, 50.0, 60.0, 70.0})
+    for (const double wall : {5.0, 10.0, 15.0, 20.0, 25.0})
+      EXPECT_NEAR(mass_flow_half_angle(HopperShape::wedge, std::tan(wall * degree), delta * degree) / degree,
+                  ter_borg(wall, delta), 2)
+          << delta << ' ' << wall;
+}
+
 TEST(HopperDesign, FlowFactorsFallWithTheAngleOfFriction) {
   double before = 10;
   for (const double delta : {30.0, 40.0, 50.0, 60.0}) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "models/continuum/boundary/walls_beyond_faces.hpp"
 #include "models/continuum/setup/layout.hpp"
@@ -100,42 +101,17 @@ std::optional<WallMotion> motion_of(const Parameters& p, const VesselPart& v) {
 Boundary::Boundary(const Parameters& p) : domain_(domain_of(p)), vessel_(surface_of(p)) {
   const double friction = p.walls.friction == Friction::coulomb ? p.walls.coefficient : 0;
   const double adhesion = wall_adhesion(p);
-  for (const char* const face : face_names) patches_.push_back({face, friction, adhesion, {}, {}, {}, {}});
-  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, adhesion, {}, {}, {}, {}});
+  for (const char* const face : face_names) patches_.push_back({face, friction, adhesion, {}, {}});
+  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, adhesion, {}, {}});
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
-    patches_.push_back({.name = name_of(p, n),
-                        .friction = p.walls.friction == Friction::coulomb ? v.friction.value_or(friction) : 0,
-                        .adhesion = wall_adhesion(p, v.adhesion),
-                        .opens_after = v.gate ? std::optional(v.opens_after) : std::nullopt,
-                        .closes_after = v.gate ? v.closes_after : std::nullopt,
-                        .repeats_every = v.gate ? v.repeats_every : std::nullopt,
-                        .motion = motion_of(p, v)});
+    patches_.push_back(
+        {.name = name_of(p, n),
+         .friction = p.walls.friction == Friction::coulomb ? v.friction.value_or(friction) : 0,
+         .adhesion = wall_adhesion(p, v.adhesion),
+         .gate = v.gate ? std::optional(GateTimes{v.opens_after, v.closes_after, v.repeats_every}) : std::nullopt,
+         .motion = motion_of(p, v)});
   }
-}
-
-bool Patch::is_away(double time) const {
-  if (!opens_after || time < *opens_after) return false;
-  if (!closes_after) return true;
-  if (std::isinf(time)) return false;
-  const double since = repeats_every ? std::fmod(time - *opens_after, *repeats_every) : time - *opens_after;
-  return since < *closes_after - *opens_after;
-}
-
-std::optional<double> Patch::closed_before(double time) const {
-  if (!opens_after || !closes_after || time < *opens_after) return std::nullopt;
-  const double times = repeats_every ? std::floor((time - *opens_after) / *repeats_every) : 0;
-  return *closes_after + times * repeats_every.value_or(0);
-}
-
-double Patch::time_away(double until) const {
-  if (!opens_after || !(until > *opens_after)) return 0;
-  const double since = until - *opens_after;
-  if (!closes_after) return since;
-  const double each = *closes_after - *opens_after;
-  if (!repeats_every) return std::min(since, each);
-  const double times = std::floor(since / *repeats_every);
-  return times * each + std::min(since - times * *repeats_every, each);
 }
 
 bool Boundary::vessel_has_gates_due(double time) const {
@@ -149,11 +125,16 @@ void Boundary::move_gates(double time) {
   for (std::size_t n = 0; n < vessel_.patches(); ++n) vessel_.set_open(n, patches_[patch_of_part(n)].is_away(time));
 }
 
+void Boundary::open_all_gates() {
+  domain_.open_gates(std::numeric_limits<double>::infinity());
+  for (std::size_t n = 0; n < vessel_.patches(); ++n) vessel_.set_open(n, patches_[patch_of_part(n)].gate.has_value());
+}
+
 std::optional<double> Boundary::shut_since(double time) const {
   std::optional<double> last;
   for (const Patch& patch : patches_) {
     if (patch.is_away(time)) return std::nullopt;
-    last = std::max(last, patch.closed_before(time));
+    if (patch.gate) last = std::max(last, patch.gate->closed_before(time));
   }
   return last;
 }

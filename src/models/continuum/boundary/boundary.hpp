@@ -15,6 +15,7 @@
 
 #include "base/vector.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "numerics/geometry/gate_times.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::continuum {
@@ -35,19 +36,12 @@ struct WallMotion {
 
 struct Patch {
   std::string name;
-  double friction = 0;                  ///< coefficient of Coulomb's friction
-  double adhesion = 0;                  ///< shear stress that it bears besides, Pa
-  std::optional<double> opens_after;    ///< a gate: so long after the gate of the case opens, s
-  std::optional<double> closes_after;   ///< a gate that is shut again, the same
-  std::optional<double> repeats_every;  ///< of such a gate, s
-  std::optional<WallMotion> motion;     ///< from the opening of the gate of the case on
+  double friction = 0;               ///< coefficient of Coulomb's friction
+  double adhesion = 0;               ///< shear stress that it bears besides, Pa
+  std::optional<GateTimes> gate;     ///< of one that is taken away
+  std::optional<WallMotion> motion;  ///< from the opening of the gate of the case on
 
-  /// \param time from the opening of the gate of the case, s; infinite: at the end, where what repeats is shut
-  bool is_away(double time) const;
-  /// When it closed last before a time at which it is not away; nothing if it has not.
-  std::optional<double> closed_before(double time) const;
-  /// For how long it has been away until a time, s.
-  double time_away(double until) const;
+  bool is_away(double time) const { return gate && gate->is_away(time); }
 };
 
 class Boundary {
@@ -72,6 +66,8 @@ class Boundary {
   bool vessel_has_gates_due(double time) const;
   /// Opens and closes them.
   void move_gates(double time);
+  /// Those that close later too.
+  void open_all_gates();
   /// How many gates are open.
   int openings() const;
   /// Since when gates that were open are all shut again, the same; nothing if one is open, or none has closed.

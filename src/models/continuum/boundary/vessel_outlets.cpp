@@ -122,9 +122,9 @@ const VesselOutlet* covered_by(const std::vector<VesselOutlet>& all, const Vesse
 }  // namespace
 
 double first_opening(const std::vector<VesselOutlet>& outlets) {
-  const auto first = std::min_element(outlets.begin(), outlets.end(),
-                                      [](const auto& a, const auto& b) { return a.opens_after < b.opens_after; });
-  return first == outlets.end() ? 0 : first->opens_after;
+  double first = outlets.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (const VesselOutlet& outlet : outlets) first = std::min(first, outlet.gate ? outlet.gate->opens_after : 0);
+  return first;
 }
 
 double distance_of_walls(FaceKind a, FaceKind b, double extent) {
@@ -155,7 +155,7 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
       open.name = gate->name, open.middle.z = std::min(gate->middle.z, hole->middle.z);
       gate = open;
     }
-    gate->opens_after = v.opens_after, gate->gate = n;
+    gate->gate = {v.opens_after, v.closes_after, v.repeats_every};
     outlets.push_back(*gate);
   }
   if (outlets.empty() && !all.empty()) {
@@ -186,14 +186,15 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
 
 namespace {
 
-/// Share of an outlet from which a wall is nearer than a way up or down. \param way m, negative downwards
-double share_with_wall(const Layout& layout, const VesselOutlet& outlet, double way) {
+constexpr double off_the_plane = 0.01;  // of its narrower side
+
+/// Share of an outlet with a wall between two heights over it, m.
+double share_with_wall(const Layout& layout, const VesselOutlet& outlet, double start, double end) {
   const Parameters& p = layout.given;
   Boundary boundary = *layout.boundary;
-  boundary.move_gates(std::numeric_limits<double>::infinity());
+  boundary.open_all_gates();
   const Surface& surface = boundary.vessel();
   constexpr int across = 16;
-  const double start = std::copysign(0.01 * outlet.narrow, way);
   double all = 0, blocked = 0;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j) {
@@ -201,7 +202,7 @@ double share_with_wall(const Layout& layout, const VesselOutlet& outlet, double 
       const Vector3 x = outlet.middle + Vector3{along(i, outlet.width), along(j, outlet.depth), start};
       if (!outlet.is_beside(x, 0) || x.x < 0 || x.y < 0 || x.x > p.box.width || x.y > p.box.depth) continue;
       ++all;
-      blocked += surface.first_crossing(x, x + Vector3{0, 0, way}).has_value();
+      blocked += surface.first_crossing(x, x + Vector3{0, 0, end - start}).has_value();
     }
   return all > 0 ? blocked / all : 0;
 }
@@ -210,11 +211,11 @@ double share_with_wall(const Layout& layout, const VesselOutlet& outlet, double 
 
 double share_blocked_below(const Layout& layout, const VesselOutlet& outlet) {
   if (is_mirror(layout.given.box.floor) && outlet.middle.z < outlet.narrow) return 1;
-  return share_with_wall(layout, outlet, -outlet.narrow);
+  return share_with_wall(layout, outlet, -off_the_plane * outlet.narrow, -outlet.narrow);
 }
 
 double share_covered(const Layout& layout, const VesselOutlet& outlet) {
-  return share_with_wall(layout, outlet, 2 * layout.given.bed.spacing);
+  return share_with_wall(layout, outlet, -off_the_plane * outlet.narrow, 2 * layout.given.bed.spacing);
 }
 
 }  // namespace talus::continuum

@@ -2,13 +2,13 @@
 /// What grains leave a vessel through.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/vector.hpp"
 #include "numerics/geometry/box.hpp"
+#include "numerics/geometry/gate_times.hpp"
 
 namespace talus::continuum {
 
@@ -23,8 +23,7 @@ struct VesselOutlet {
   double narrow = 0, length = 0;  ///< the narrower side and the other one, at any angle, m
   /// Whether it goes on beyond both faces of the box that it reaches, along x or y: a slot without ends.
   bool endless_along_x = false, endless_along_y = false;
-  double opens_after = 0;                ///< s after the opening of the gate, of one that a gate shuts
-  std::optional<std::size_t> gate = {};  ///< number of the part that shuts it
+  std::optional<GateTimes> gate = {};  ///< of one that a gate shuts
 
   /// Whether a place is above or below it, or no farther beside than a margin, m.
   bool is_beside(const Vector3& x, double margin) const;
@@ -43,7 +42,8 @@ double distance_of_walls(FaceKind a, FaceKind b, double extent);
 /// Share of an outlet below which a wall of the vessel or the floor is nearer than the outlet is across, 0 to 1: grains
 /// do not fall freely there. Gates are taken to be open.
 double share_blocked_below(const Layout& layout, const VesselOutlet& outlet);
-/// Share of it that a wall of the vessel covers, closer above than two spacings: what is open is narrower than it.
+/// Share of it that a wall of the vessel covers, in its plane or closer above than two spacings: what is open is
+/// narrower than it.
 double share_covered(const Layout& layout, const VesselOutlet& outlet);
 
 }  // namespace talus::continuum

@@ -103,20 +103,6 @@ TEST(Boundary, ShutsGatesAgainWhenTheyAreDue) {
   }
 }
 
-TEST(Patch, AddsUpHowLongItsGateWasAway) {
-  Patch gate;
-  EXPECT_EQ(gate.time_away(9), 0) << "no gate";
-  gate.opens_after = 2;
-  EXPECT_EQ(gate.time_away(1), 0);
-  EXPECT_EQ(gate.time_away(9), 7);
-  gate.closes_after = 3;
-  EXPECT_EQ(gate.time_away(2.5), 0.5);
-  EXPECT_EQ(gate.time_away(9), 1);
-  gate.repeats_every = 3;
-  EXPECT_EQ(gate.time_away(4), 1);
-  EXPECT_EQ(gate.time_away(8.5), 2.5);
-}
-
 TEST(Layout, KeepsItsBoundaryForOtherBeds) {
   Parameters p = room(12, 12, 12);
   p.bed.height = 2 * spacing;

@@ -51,7 +51,7 @@ TEST(VesselOutlets, TheNarrowerSideCountsWhicheverWayTheyAreTurned) {
 }
 
 TEST(VesselOutlets, AGateWiderThanTheHoleAboveItIsTold) {
-  const std::string quantity = "share of the outlet with a wall just above";
+  const std::string quantity = "share of the outlet with a wall in it or just above";
   const auto told = [&](double hole) {
     Parameters p = slot(20, 60);
     const double width = 30 - hole / 2;
@@ -61,6 +61,16 @@ TEST(VesselOutlets, AGateWiderThanTheHoleAboveItIsTold) {
   };
   EXPECT_EQ(told(5), "! 0.75");
   EXPECT_EQ(told(20), "");
+}
+
+TEST(VesselOutlets, AWallInThePlaneOfTheGateIsTold) {
+  const std::string quantity = "share of the outlet with a wall in it or just above";
+  Parameters p = slot(20, 60);
+  EXPECT_EQ(value_of(p, quantity), "");
+  p.vessel[0].closes_after = 2;
+  EXPECT_EQ(value_of(p, quantity), "") << "one that closes again is no wall in its own way";
+  p.vessel.push_back(plate("bottom", {0, 0, 30}, {60, 0, 0}, {0, 60, 0}));
+  EXPECT_EQ(value_of(p, quantity), "! 1");
 }
 
 TEST(VesselOutlets, BetweenMirrorsASlotHasNoEnds) {
