@@ -148,6 +148,13 @@ void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
   const std::vector<VesselOutlet>& outlets = setup.vessel_outlets;
   if (outlets.empty() && setup.outlet) add_outlet(p, setup.outlet->across, "", lines);
+  for (std::size_t n = 0; n < p.plates.size(); ++n) {
+    const InclinedPlate& plate = p.plates[n];
+    const double length = std::hypot(plate.to[0] - plate.from[0], plate.to[1] - plate.from[1]);
+    for (std::size_t k = 0; k + 1 < plate.openings.size(); k += 2)
+      if (const double width = plate.openings[k + 1] - plate.openings[k]; width < nearly_all * length)
+        add_outlet(p, width, fmt::format(" of plates.{}", n + 1), lines);
+  }
   for (const VesselOutlet& outlet : outlets) {
     const std::string name = outlets.size() > 1 ? " " + outlet.name : "";
     add_outlet(p, outlet.narrow, name, lines);

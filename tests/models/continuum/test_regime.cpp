@@ -111,6 +111,18 @@ TEST(RegimeOfCase, WarnsOfAnOutletTooNarrowForParticlesOrGrains) {
   EXPECT_FALSE(warns(p, "particles-across-the-outlet")) << "there is no outlet";
 }
 
+TEST(RegimeOfCase, WarnsOfAnOpeningOfAPlateLikewise) {
+  Parameters p = hopper();
+  p.plate = {};
+  p.plates = {{.from = {0, 0.1}, .to = {0.1, 0.1}, .openings = {0.04, 0.05}, .opens_after = 0.0}};
+  EXPECT_TRUE(warns(p, "particles-across-the-outlet-of-plates-1"));
+  p.plates[0].openings = {0.03, 0.07};
+  EXPECT_FALSE(warns(p, "particles-across-the-outlet-of-plates-1"));
+  p.bed.spacing = 1e-2;
+  p.plates[0].openings = {0, 0.1};
+  EXPECT_FALSE(warns(p, "particles-across-the-outlet-of-plates-1")) << "all of it is taken away";
+}
+
 TEST(RegimeOfCase, SaysWhichSpacingANarrowOutletNeeds) {
   Parameters p = hopper();
   p.plate.slit_right = 0.03 + 6 * p.bed.spacing;
