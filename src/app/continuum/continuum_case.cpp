@@ -25,6 +25,7 @@
 #include "app/continuum/wall_loads.hpp"
 #include "app/materials/materials.hpp"
 #include "base/instruction_set.hpp"
+#include "base/unit.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/stl.hpp"
 #include "models/continuum/inlets.hpp"
@@ -303,6 +304,11 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.groups = groups(*setup);
   prepared.regime = continuum::regime_of_case(*setup);
   prepared.remarks = continuum::remarks_of_vessel(p);
+  for (std::size_t n = 0; n < p.inlets.size(); ++n)
+    if (const auto window = continuum::cut_window(*setup, p.inlets[n]); window && !window->by_wall)
+      prepared.remarks.push_back(
+          fmt::format("inlet {}: planes of symmetry leave {:.4g} x {:.4g} mm of its window; {:.4g} kg/s come in there",
+                      n + 1, window->width / millimetre, window->depth / millimetre, p.inlets[n].rate));
   prepared.regime.push_back(continuum::courant_of_case(*setup));
   for (const std::size_t n : continuum::inlets_after(p, end))
     prepared.regime.push_back({continuum::inlet_key(n, "from"), fmt::format("{:.4g} s", p.inlets[n].from),

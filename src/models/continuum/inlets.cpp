@@ -19,30 +19,80 @@ namespace {
 
 constexpr double max_along_side = 1e4;  // places
 
-/// Of the lattice, without regard to walls.
-std::vector<Vector3> lattice_in(const Parameters& p, const Inlet& inlet) {
-  const double spacing = p.bed.spacing;
-  const bool round = inlet.shape == InletShape::disc;
-  const auto count = [&](double extent) {
-    return std::max<std::int64_t>(1, std::llround(std::min(max_along_side, extent / spacing)));
+/// Along an axis: how much faces that mirror cut off at either end.
+struct Cut {
+  double low = 0, high = 0;  ///< m
+};
+
+double extent_along(const Inlet& inlet, int axis) {
+  return inlet.shape == InletShape::disc ? 2 * inlet.radius : axis == 0 ? inlet.width : inlet.depth;
+}
+
+Cut cut_along(const Box& box, const Inlet& inlet, int axis) {
+  const double half = 0.5 * extent_along(inlet, axis), centre = inlet.centre[static_cast<std::size_t>(axis)];
+  const auto beyond = [&](int side, double distance) {
+    return is_mirror(box.face(axis, side)) ? std::max(0.0, distance) : 0.0;
   };
-  const std::int64_t columns = count(round ? 2 * inlet.radius : inlet.width);
-  const std::int64_t rows = count(round ? 2 * inlet.radius : inlet.depth);
+  return {beyond(0, box.low[axis] - (centre - half)), beyond(1, centre + half - box.high[axis])};
+}
+
+/// Of the lattice, without regard to walls, in what faces leave of the window: beyond them places would be those of
+/// images. Across a periodic box no more than fit between its faces.
+std::vector<Vector3> lattice_in(const Layout& layout, const Inlet& inlet) {
+  const double spacing = layout.given.bed.spacing;
+  const Box& box = layout.boundary->domain().box();
+  std::array<std::vector<double>, 2> along;  // from the centre, m
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [low, high] = cut_along(box, inlet, axis);
+    double spacings = std::min(max_along_side, (extent_along(inlet, axis) - low - high) / spacing);
+    if (box.is_periodic(axis)) spacings = std::min(spacings, std::floor(box.extent(axis) / spacing * (1 + 1e-9)));
+    const std::int64_t count = std::max<std::int64_t>(1, std::llround(spacings));
+    for (std::int64_t i = 0; i < count; ++i)
+      along[static_cast<std::size_t>(axis)].push_back(
+          0.5 * (low - high) + (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)) * spacing);
+  }
   std::vector<Vector3> places;
-  for (std::int64_t j = 0; j < rows; ++j)
-    for (std::int64_t i = 0; i < columns; ++i) {
-      const double x = (static_cast<double>(i) - 0.5 * static_cast<double>(columns - 1)) * spacing;
-      const double y = (static_cast<double>(j) - 0.5 * static_cast<double>(rows - 1)) * spacing;
-      if (!round || x * x + y * y <= inlet.radius * inlet.radius)
+  for (const double y : along[1])
+    for (const double x : along[0])
+      if (inlet.shape != InletShape::disc || x * x + y * y <= inlet.radius * inlet.radius)
         places.push_back({inlet.centre[0] + x, inlet.centre[1] + y, inlet.centre[2]});
-    }
   return places;
+}
+
+/// Whether a place is so near to a face that it and its image press on each other: nearer than a lattice of whole
+/// spacings in a window ends at its edge.
+bool is_at_face(const Box& box, const Vector3& x, double spacing) {
+  constexpr double least = 0.25 * (1 - 1e-9);  // in spacings
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      if (is_mirror(box.face(axis, side)) &&
+          std::abs(x[axis] - box.bound(axis, side)) < std::min(least * spacing, 0.49 * box.extent(axis)))
+        return true;
+  return false;
 }
 
 }  // namespace
 
 std::string inlet_key(std::size_t n, std::string_view name) {
   return fmt::format("inlet.{}.{}", n + 1, name);
+}
+
+std::optional<CutWindow> cut_window(const Layout& layout, const Inlet& inlet) {
+  constexpr double least = 1e-6;  // of the window
+  const Box& box = layout.boundary->domain().box();
+  CutWindow window{.width = extent_along(inlet, 0), .depth = extent_along(inlet, 1)};
+  bool is_cut = false;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Cut cut = cut_along(box, inlet, axis);
+    const double notable = least * extent_along(inlet, axis);
+    const auto cuts = [&](int side, double off) {
+      is_cut = is_cut || off > notable;
+      window.by_wall = window.by_wall || (off > notable && box.face(axis, side) != FaceKind::symmetry);
+    };
+    cuts(0, cut.low), cuts(1, cut.high);
+    (axis == 0 ? window.width : window.depth) -= cut.low + cut.high;
+  }
+  return is_cut ? std::optional(window) : std::nullopt;
 }
 
 std::vector<std::size_t> inlets_after(const Parameters& p, double end) {
@@ -65,7 +115,7 @@ std::vector<std::size_t> inlets_past_vessel(const Layout& layout) {
   const Surface& surface = layout.boundary->vessel();
   for (std::size_t n = 0; n < p.inlets.size(); ++n) {
     const Vector3 start{p.inlets[n].velocity[0], p.inlets[n].velocity[1], p.inlets[n].velocity[2]};
-    const std::vector<Vector3> places = lattice_in(p, p.inlets[n]);
+    const std::vector<Vector3> places = lattice_in(layout, p.inlets[n]);
     const std::size_t stride = 1 + places.size() / max_paths;
     std::size_t paths = 0, free = 0;
     for (std::size_t i = 0; i < places.size(); i += stride, ++paths) {
@@ -91,8 +141,9 @@ InletLayer layer_of(const Layout& layout, const Inlet& inlet) {
   const double mass = layout.lattice.mass;
   InletLayer layer;
   const double room = sph::contact_distance * p.bed.spacing;
-  for (const Vector3& x : lattice_in(p, inlet))
-    if (!surface.nearest(x, room) && !domain.is_near_wall(x, room)) layer.places.push_back(x);
+  for (const Vector3& x : lattice_in(layout, inlet))
+    if (!surface.nearest(x, room) && !domain.is_near_wall(x, room) && !is_at_face(domain.box(), x, p.bed.spacing))
+      layer.places.push_back(x);
   layer.interval = static_cast<double>(layer.places.size()) * mass / inlet.rate;
   // Continuity keeps what separates a density from the kernel's sum (begin_densities), so that grains come in with
   // that of the stream, which goes on above them.
@@ -121,7 +172,7 @@ std::vector<Problem> check_inlets(const Layout& layout) {
     const Inlet& inlet = p.inlets[n];
     const auto& x = inlet.centre;
     const bool inside =
-        x[0] > 0 && x[0] < p.box.width && x[1] > 0 && x[1] < p.box.depth && x[2] > 0 && x[2] < p.box.height;
+        x[0] >= 0 && x[0] <= p.box.width && x[1] >= 0 && x[1] <= p.box.depth && x[2] > 0 && x[2] < p.box.height;
     if (!inside) refuse(inlet_key(n, "centre"), "is not within the box", "a place within it");
     if (p.removal.below && x[2] <= *p.removal.below)
       refuse(inlet_key(n, "centre"),
@@ -142,8 +193,9 @@ std::vector<Problem> check_inlets(const Layout& layout) {
     else if (!(inlet.rate <= most * (1 + 1e-9)))
       refuse(inlet_key(n, "rate"),
              fmt::format(
-                 "{:.4g} kg/s do not fit through {:.4g} mm2 at that speed", inlet.rate,
-                 static_cast<double>(layer.places.size()) * p.bed.spacing * p.bed.spacing / (millimetre * millimetre)),
+                 "{:.4g} kg/s do not fit through {:.4g} mm2{} at that speed", inlet.rate,
+                 static_cast<double>(layer.places.size()) * p.bed.spacing * p.bed.spacing / (millimetre * millimetre),
+                 cut_window(layout, inlet) ? ", what faces of the box leave of the window," : ""),
              fmt::format("at most {:.4g} kg/s", most));
   }
   if (p.air.enabled && (!p.inlets.empty() || p.removal.is_any()))

@@ -63,6 +63,14 @@ std::vector<std::size_t> inlets_after(const Parameters& parameters, double end);
 /// Those most of whose grains meet no wall on their free fall down to where the vessel ends, above an open floor.
 std::vector<std::size_t> inlets_past_vessel(const Layout& layout);
 
+/// What the faces of the box leave of a window that reaches over them.
+struct CutWindow {
+  double width = 0, depth = 0;  ///< m
+  bool by_wall = false;         ///< not by planes of symmetry alone
+};
+/// Nothing where they leave all of it.
+std::optional<CutWindow> cut_window(const Layout& layout, const Inlet& inlet);
+
 /// The key of the nth of [[inlet]], from 0.
 std::string inlet_key(std::size_t n, std::string_view name);
 
@@ -116,7 +124,8 @@ struct InletLayer {
   std::vector<double> density;  ///< bulk, of each, as the kernel sees it within the stream, kg/m^3
   double interval = 0;          ///< between layers, s
 };
-/// Places on a lattice of bed.spacing, no nearer to a wall than the contact distance.
+/// Places on a lattice of bed.spacing in what closed faces of the box leave of the window, apart from these, and no
+/// nearer to a wall than the contact distance.
 InletLayer layer_of(const Layout& layout, const Inlet& inlet);
 
 }  // namespace talus::continuum

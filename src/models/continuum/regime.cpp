@@ -181,6 +181,11 @@ void add_inlets(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
   for (std::size_t n = 0; n < p.inlets.size(); ++n) {
     const Inlet& inlet = p.inlets[n];
+    if (const auto window = cut_window(setup, inlet))
+      lines.push_back({fmt::format("window of inlet {} within the box", n + 1),
+                       fmt::format("{:.4g} x {:.4g} mm", window->width / millimetre, window->depth / millimetre),
+                       fmt::format("a face of the box cuts it; {:.4g} kg/s come in through what is left", inlet.rate),
+                       window->by_wall});
     if (!inlet.to) continue;
     const double layers = (*inlet.to - inlet.from) / layer_of(setup, inlet).interval,
                  asked = inlet.rate * (*inlet.to - inlet.from);

@@ -247,6 +247,81 @@ TEST(Inlets, ThoseBesideTheVesselAreTold) {
   EXPECT_THAT(inlets_past_vessel(Layout(p)), testing::IsEmpty());
 }
 
+/// The nearest two places of a layer, m.
+double least_distance(const InletLayer& layer) {
+  double least = 1;
+  for (std::size_t i = 0; i < layer.places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, norm(layer.places[i] - layer.places[j]));
+  return least;
+}
+
+class OverAFace : public testing::TestWithParam<FaceKind> {};
+INSTANTIATE_TEST_SUITE_P(Faces, OverAFace, testing::Values(FaceKind::wall, FaceKind::symmetry));
+
+TEST_P(OverAFace, AWindowIsWhatLiesInside) {
+  Parameters p = rain();
+  p.box.left = p.box.right = p.box.front = GetParam();
+  Inlet& inlet = p.inlets[0];
+  inlet.rate *= 0.5;
+  const auto expect = [&](double x, double width, std::size_t columns, std::size_t rows) {
+    inlet.centre[0] = x * spacing, inlet.width = width * spacing;
+    ASSERT_THAT(check(p), testing::IsEmpty()) << x;
+    const InletLayer layer = layer_of(Layout(p), inlet);
+    ASSERT_EQ(layer.places.size(), columns * rows) << x;
+    EXPECT_GE(least_distance(layer), spacing * (1 - 1e-9));
+    for (const Vector3& place : layer.places) {
+      EXPECT_GE(place.x, 0.25 * spacing * (1 - 1e-9));
+      EXPECT_LE(place.x, p.box.width - 0.25 * spacing * (1 - 1e-9));
+    }
+    EXPECT_NEAR(double(layer.places.size()) * lattice_of(p).mass / layer.interval, inlet.rate, 1e-9 * inlet.rate);
+    EXPECT_EQ(cut_window(Layout(p), inlet).has_value(), columns < std::size_t(width));
+  };
+  expect(2, 4, 4, 3);
+  expect(1.3, 4, 3, 3);
+  expect(0, 4, 2, 3);
+  expect(8, 4, 2, 3);
+  expect(3, 20, 8, 3);
+  inlet.shape = InletShape::disc, inlet.radius = 3 * spacing, inlet.centre = {0, 0, 25 * spacing};
+  const InletLayer quarter = layer_of(Layout(p), inlet);
+  EXPECT_EQ(quarter.places.size(), 8u) << "three by three places but the outermost";
+  EXPECT_GE(least_distance(quarter), spacing * (1 - 1e-9));
+}
+
+TEST_P(OverAFace, GrainsFallFreely) {
+  Parameters p = rain();
+  p.box.left = GetParam();
+  p.inlets[0].centre[0] = 0.75 * spacing;
+  p.inlets[0].velocity = {0, 0, -1}, p.inlets[0].rate *= 0.5;
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.time < 0.12) {
+    model.advance(team);
+    for (const Vector3& v : s.velocity) ASSERT_LT(norm(v), 1.05 * std::sqrt(1 + 2 * 9.81 * 25 * spacing)) << s.time;
+  }
+  EXPECT_GT(s.population.fed, 0u);
+}
+
+TEST(Inlets, NoRoomBesideAFaceIsTold) {
+  Parameters p = rain();
+  p.box.left = FaceKind::wall;
+  p.inlets[0].centre[0] = 0.1 * spacing, p.inlets[0].width = 0.4 * spacing;
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].key, "inlet.1.centre");
+  p.inlets[0].width = 4 * spacing, p.inlets[0].rate *= 1.5;  // as fits, but half of the window is left
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].key, "inlet.1.rate");
+  EXPECT_THAT(check(p)[0].what, testing::HasSubstr("what faces of the box leave of the window"));
+}
+
+TEST(Inlets, AWindowAcrossAPeriodicBoxMeetsNotItself) {
+  Parameters p = rain();
+  p.box.left = p.box.right = FaceKind::periodic;
+  p.box.width = 8.5 * spacing, p.inlets[0].width = 20 * spacing;
+  EXPECT_EQ(layer_of(Layout(p), p.inlets[0]).places.size(), 8u * 3u);
+}
+
 TEST(Inlets, ContradictionsAreToldAllAtOnce) {
   Parameters p = rain();
   p.inlets.push_back(p.inlets[0]);

@@ -98,6 +98,22 @@ TEST(RegimeOfCase, WarnsOfInletsOfFewLayers) {
   EXPECT_TRUE(warns(p, "layers-of-grains-through-inlet-1"));
 }
 
+TEST(RegimeOfCase, WarnsOfInletsThatAWallCuts) {
+  Parameters p = room(20, 20, 20);
+  p.bed.height = 0;
+  Inlet inlet;
+  inlet.centre = {2 * spacing, 10 * spacing, 15 * spacing};
+  inlet.width = inlet.depth = 4 * spacing;
+  inlet.velocity = {0, 0, -1}, inlet.rate = 1e-3;
+  p.inlets = {inlet};
+  p.box.left = FaceKind::wall;
+  EXPECT_FALSE(warns(p, "window-of-inlet-1-within-the-box")) << "it ends at the wall";
+  p.inlets[0].centre[0] = spacing;
+  EXPECT_TRUE(warns(p, "window-of-inlet-1-within-the-box"));
+  p.box.left = FaceKind::symmetry;
+  EXPECT_FALSE(warns(p, "window-of-inlet-1-within-the-box")) << "half a model";
+}
+
 TEST(RegimeOfCase, WarnsOfAnOutletTooNarrowForParticlesOrGrains) {
   Parameters p = hopper();
   p.plate.slit_right = 0.03 + 12 * p.bed.spacing;
