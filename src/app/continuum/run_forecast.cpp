@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "analysis/statistics.hpp"
@@ -31,12 +33,28 @@ double largest_speed(const Setup& setup) {
   return speed_of_fall(setup, setup.given.removal.below.value_or(0));
 }
 
+/// Whether nothing falls through the box: no side is open, and walls are below every place.
+bool is_closed_below(const Setup& setup) {
+  constexpr int places = 20;  // along an axis
+  const Box& box = setup.boundary->domain().box();
+  for (int axis = 0; axis < 2; ++axis)
+    for (const int side : {0, 1})
+      if (box.face(axis, side) == FaceKind::open) return false;
+  for (int j = 0; j < places; ++j)
+    for (int i = 0; i < places; ++i) {
+      const double x = box.low.x + (i + 0.5) / places * box.extent(0),
+                   y = box.low.y + (j + 0.5) / places * box.extent(1);
+      if (!setup.boundary->vessel().blocks({x, y, box.high.z}, {x, y, box.low.z})) return false;
+    }
+  return true;
+}
+
 /// That inlets have let in and that is still there, in the mean until `end`, s. Where upright walls are about an inlet
-/// its grains stay; elsewhere they run to the farthest corner and are taken away.
+/// or nothing falls through the box its grains stay; elsewhere they run to the farthest corner and are taken away.
 double mean_mass_come(const Setup& setup, double end) {
   const Parameters& p = setup.given;
   const SiloShape shape(setup);
-  const bool leave = p.removal.below || p.removal.outside || p.box.floor == FaceKind::open;
+  const bool leave = (p.removal.below || p.removal.outside || p.box.floor == FaceKind::open) && !is_closed_below(setup);
   double mass = 0;
   for (const continuum::Inlet& inlet : p.inlets) {
     const double last = std::min(inlet.end(), end);
@@ -95,7 +113,12 @@ double measure_particle(const Setup& given, double builds, ThreadTeam& team) {
                 setup->density * p.gravity.acceleration * setup->depth);
   model.begin(team);
   const auto count = static_cast<double>(s.position.size());  // some may be taken away
-  const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
+  if (count == 0)
+    throw NumericalError({.what = "no particle is left: [removal] takes all of them away at the start",
+                          .term = {},
+                          .place = {},
+                          .advice = "a bed above removal.below"});
+  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
   const double step = seconds_of(team, duration, [&] { model.advance(team); });
   const double with_build = seconds_of(team, duration, [&] {
     model.drop_lists();
@@ -104,12 +127,70 @@ double measure_particle(const Setup& given, double builds, ThreadTeam& team) {
   return (step + builds * std::max(0.0, with_build - step)) / count;
 }
 
-/// What inlets bring in the mean, as a bed; without a bed where it does not fit.
-Setup filled(const Setup& setup, double end) {
+/// What inlets bring in the mean, as a bed; nothing where the vessel does not hold it.
+std::shared_ptr<const Setup> filled(const Setup& setup, double end) {
+  constexpr double enough = 0.5;  // of the mass
   Parameters p = setup.given;
-  p.inlets.clear();
+  p.inlets.clear(), p.removal = {};
   p.bed.mass = mean_mass_come(setup, end);
-  return Setup(with_level(setup.with(p)));
+  const continuum::Layout level = with_level(setup.with(p));
+  if (!(level.given.bed.height > 0 && level.lattice.mass * continuum::bed_count(level) > enough * *p.bed.mass))
+    return nullptr;
+  return std::make_shared<const Setup>(level);
+}
+
+/// So many particles on the walls that are below inlets, layer by layer, the nearest first: as grains lie on a belt or
+/// a chute; nothing where there are none. \pre there is a vessel
+std::shared_ptr<const Setup> laid_on_walls(const Setup& setup, double count) {
+  constexpr double max_columns = 1e6;
+  struct Column {
+    double x, y, floor, way;  // way: to the nearest inlet, m
+  };
+  Parameters p = setup.given;
+  const SiloShape shape(setup);
+  const bool is_held = std::all_of(p.inlets.begin(), p.inlets.end(), [&](const continuum::Inlet& inlet) {
+    return shape.upright_at({inlet.centre[0], inlet.centre[1], inlet.centre[2]}) != nullptr;
+  });
+  if (is_held || p.vessel.empty()) return nullptr;
+  const double spacing = p.bed.spacing;
+  double top = 0;
+  for (const continuum::Inlet& inlet : p.inlets) top = std::max(top, inlet.centre[2]);
+  const auto [low, high] = continuum::bounds_of_vessel(p);
+  const double left = std::max(0.0, low.x), front = std::max(0.0, low.y);
+  const double many_x = std::floor((std::min(p.box.width, high.x) - left) / spacing + 1e-9);
+  const double many_y = std::floor((std::min(p.box.depth, high.y) - front) / spacing + 1e-9);
+  if (!(many_x >= 1 && many_y >= 1 && many_x * many_y <= max_columns)) return nullptr;
+  std::vector<Column> columns;
+  for (double j = 0; j < many_y; ++j)
+    for (double i = 0; i < many_x; ++i) {
+      const double x = left + (i + 0.5) * spacing, y = front + (j + 0.5) * spacing;
+      const auto wall = setup.boundary->vessel().first_crossing({x, y, top}, {x, y, 0});
+      if (!wall) continue;
+      Column column{x, y, top * (1 - wall->at), std::numeric_limits<double>::infinity()};
+      for (const continuum::Inlet& inlet : p.inlets)
+        column.way = std::min(column.way, std::hypot(x - inlet.centre[0], y - inlet.centre[1]));
+      columns.push_back(column);
+    }
+  std::stable_sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.way < b.way; });
+  continuum::GivenBed bed;
+  bool has_room = true;
+  for (double layer = 0; has_room; ++layer) {
+    has_room = false;
+    for (const Column& column : columns) {
+      const double z = column.floor + (layer + 0.5) * spacing;
+      if (!(z < top) || !(static_cast<double>(bed.position.size()) < count)) continue;
+      bed.position.push_back({column.x, column.y, z});
+      has_room = true;
+    }
+  }
+  if (bed.position.empty()) return nullptr;
+  bed.low = bed.high = bed.position.front();
+  for (const Vector3& x : bed.position)
+    for (int axis = 0; axis < 3; ++axis)
+      bed.low[axis] = std::min(bed.low[axis], x[axis]), bed.high[axis] = std::max(bed.high[axis], x[axis]);
+  p.inlets.clear(), p.removal = {};
+  p.bed.given = std::make_shared<const continuum::GivenBed>(std::move(bed));
+  return std::make_shared<const Setup>(with_level(setup.with(p)));
 }
 
 }  // namespace
@@ -155,16 +236,21 @@ double measure_step(const std::shared_ptr<const Setup>& given, double end, Threa
   }
   const double builds = list_builds_of_step(*given);
   auto itself = given;
+  const auto in_sample = [&](double count) {
+    return measure_particle(Setup(sample(*setup, std::min(count, max_measured))), builds, team);
+  };
   if (setup->has_no_bed()) {
-    const auto bed = std::make_shared<const Setup>(filled(*setup, end));
-    if (continuum::bed_count(*bed) > 0) setup = itself = bed;
+    const double mean_count = mean_mass_come(*setup, end) / setup->lattice.mass;
+    if (const auto laid = laid_on_walls(*setup, std::min(mean_count, max_measured)))
+      return mean_count * measure_particle(*laid, builds, team);
+    const auto bed = filled(*setup, end);
+    if (!bed) return mean_count * in_sample(mean_count);
+    setup = itself = bed;
   }
-  const auto in_sample = [&] { return measure_particle(Setup(sample(*setup, max_measured)), builds, team); };
-  if (setup->has_no_bed()) return mean_mass_come(*given, end) / given->lattice.mass * in_sample();
   const double count = continuum::bed_count(*setup);
   const double share = continuum::share_of_particles(*given);
   if (share * count <= max_measured) return share * count * measure_particle(*itself, builds, team);
-  const double inside = in_sample();
+  const double inside = in_sample(count);
   if (setup->given.vessel.empty()) return share * count * inside;
   const Setup coarse(continuum::coarser(*setup, max_measured));
   const double by_walls = std::max(0.0, measure_particle(coarse, builds, team) - inside);

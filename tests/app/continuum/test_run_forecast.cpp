@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/case/model_case.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "models/continuum/model.hpp"
 #include "small_silo.hpp"
@@ -72,6 +73,51 @@ TEST(RunForecast, CountsTheParticlesThatComeIn) {
   const double falls = flow(p, 100).present;
   EXPECT_GT(falls, 1);
   EXPECT_LT(falls, 1 + 0.04 * 0.25 / mass) << "nothing holds them";
+}
+
+/// Grains are let in above a plate, which does nothing else; by its rise from left to right.
+Parameters fed_plate(double rise) {
+  Parameters p = open_silo();
+  p.bed.height = 0, p.bed.spacing = 3e-3;
+  p.box.left = p.box.right = FaceKind::open;
+  continuum::VesselPart plate;
+  plate.name = "tray", plate.shape = continuum::VesselShape::plate;
+  plate.corner = {0.02, -0.1, 0.06}, plate.first_edge = {0.06, 0, rise}, plate.second_edge = {0, 0.3, 0};
+  p.vessel = {plate};
+  p.inlets = {above_it()};
+  p.inlets[0].rate = 0.1, p.inlets[0].width = p.inlets[0].depth = 0.04;
+  return p;
+}
+
+TEST(RunForecast, StepsOfGrainsThatComeInOntoAPlateTakeTimeByTheirNumber) {
+  ThreadTeam team(1);
+  constexpr double end = 0.5;
+  const auto step = [&](const Parameters& p) {
+    return measure_step(std::make_shared<const continuum::Setup>(p), end, team);
+  };
+  for (const double rise : {0.0, 0.02}) {
+    const Parameters p = fed_plate(rise);
+    ASSERT_TRUE(continuum::check(p).empty()) << continuum::check(p)[0].what;
+    continuum::Continuum model(p);
+    model.begin(team);
+    while (model.state().time < 0.5 * end) model.advance(team);
+    const double taken = seconds_of(team, 0.2, [&] { model.advance(team); });
+    EXPECT_LT(std::abs(std::log(step(p) / taken)), std::log(3)) << rise << ": " << step(p) << ", " << taken;
+  }
+}
+
+TEST(RunForecast, GrainsOnAFloorWithinTheBoxStay) {
+  Parameters p = fed_plate(0);
+  const auto written = [&] {  // by the particles that are there in the mean
+    run::RunParameters run;
+    run.end = 4, run.snapshots = 0.1, run.series = 1, run.report = false;
+    return forecast_of_run(continuum::Setup(p), run).disk_bytes;
+  };
+  const double run_off = written();
+  p.box.left = p.box.right = FaceKind::wall;
+  EXPECT_EQ(written(), run_off) << "they fall beside the plate";
+  p.vessel[0].corner[0] = -0.1, p.vessel[0].first_edge[0] = 0.3;
+  EXPECT_GT(written(), 2 * run_off);
 }
 
 TEST(RunForecast, CountsTheListsOfAFall) {

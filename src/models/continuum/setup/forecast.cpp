@@ -180,7 +180,8 @@ Parameters sample(const Layout& layout, double particles) {
   const Lattice& lattice = layout.lattice;
   constexpr double max_layers = 20;
   const double layers = std::min(max_layers, static_cast<double>(lattice.count[1]));
-  const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(layout)) / layers)));
+  const double most = layout.has_no_bed() ? particles : std::min(particles, bed_count(layout));
+  const double side = std::max(4.0, std::round(std::sqrt(most / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
   q.inlets.clear(), q.removal = {}, q.beds.clear(), q.levels = {}, q.bed.mass = std::nullopt;

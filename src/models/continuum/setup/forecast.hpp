@@ -47,7 +47,7 @@ double memory_of(const Forecast& forecast);
 Parameters coarser(const Layout& layout, double particles);
 
 /// A bed of the same particles and cells in a plain box, so small that a machine's speed is measured in a moment.
-/// \param particles about so many, or as many as the case has if these are fewer
+/// \param particles about so many, or as many as the bed has if these are fewer
 Parameters sample(const Layout& layout, double particles);
 
 }  // namespace talus::continuum
