@@ -78,6 +78,18 @@ class Materials(ProgramTest):
         summary = json.loads((self.folder / "fine" / "summary.json").read_text())
         self.assertIn("diameter-of-the-material-s-grains", json.dumps(summary["warnings"]))
 
+    def test_every_key_beyond_the_range_of_its_material_warns(self):
+        for key, value, kept in (("grains.density", "1600 kg/m3", "2630 kg/m3 to 2670 kg/m3"),
+                                 ("grains.density", "1.6 kg/m3", "2630 kg/m3 to 2670 kg/m3"),
+                                 ("bed.packing", "0.3", "0.506 to 0.626"), ("bed.packing", "0.7", "0.506 to 0.626"),
+                                 ("law.critical-state.static_friction", "0.5", "0.625 to 0.727")):
+            said = self.check("--set", f"{key}={value}")
+            self.assertRegex(said, rf"! {re.escape(key)} = {value}: the range of sand is {kept}")
+        self.assertNotIn("Warnings", self.check("--set", "grains.density=2640 kg/m3", "--set", "bed.packing=0.6"))
+        self.talus("run", "case.toml", "--out", "light", "--set", "grains.density=1600 kg/m3")
+        summary = json.loads((self.folder / "light" / "summary.json").read_text())
+        self.assertIn("grains-density", json.dumps(summary["warnings"]))
+
     def test_they_are_listed_with_their_sources(self):
         said = self.talus("materials").stdout
         for name in ("glass-beads", "sand", "wheat", "maize"):

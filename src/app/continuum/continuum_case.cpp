@@ -173,6 +173,7 @@ ContinuumCase read_as_it_is(const CaseFile& file) {
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(input_path(file, part.file)).lexically_normal();
+  read.model.grains.range.beyond = values_beyond_material(file, read.model);
   read.setup = std::make_shared<const Setup>(layout.with(read.model));
   reader.check(continuum::check_steps(*read.setup, read.run.end));
   reader.throw_problems();

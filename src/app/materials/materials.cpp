@@ -244,6 +244,39 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   return filled;
 }
 
+namespace {
+
+/// Compares the values of a case with the ranges that the file of its material has.
+struct BeyondRange {
+  const CaseFile& file;
+  const CaseFile& material;
+  std::vector<continuum::ValueBeyond> beyond = {};
+
+  template <class T>
+  void operator()(const Parameter& parameter, T& member) {
+    if constexpr (std::is_same_v<T, double>) {
+      const CaseEntry* const given = file.find(parameter.key);
+      if (!given || parameter.key == "grains.diameter") return;
+      const std::string key = parameter.key + ".range";
+      std::vector<Problem> of_range;  // a range that is none says nothing
+      const auto ends = read<std::vector<double>>(material, key, Parameter{key, parameter.dimension}, &of_range);
+      if (!ends || ends->size() != 2 || (member >= ends->at(0) && member <= ends->at(1))) return;
+      beyond.push_back({parameter.key, plain(given->value), plain(material.find(key)->value)});
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<continuum::ValueBeyond> values_beyond_material(const CaseFile& file, continuum::Parameters parameters) {
+  std::vector<Problem> told;  // by fill_in_material()
+  const auto material = material_file(file, told);
+  if (!material) return {};
+  BeyondRange range{file, *material};
+  for_each_parameter(range, parameters);
+  return std::move(range.beyond);
+}
+
 std::vector<Problem> problems_of_material(const std::string& path) {
   const CaseFile file = CaseFile::from_text(fmt::format("[grains]\nmaterial = {}\n", talus::quoted(path)), "");
   continuum::Parameters parameters;

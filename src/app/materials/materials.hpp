@@ -64,6 +64,10 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 template <class P>
 FilledIn fill_in_values(const CaseFile& file, P& parameters);
 
+/// What the case sets beyond the range that its material has for that key, but for the grains' diameter. \param
+/// parameters as read
+std::vector<continuum::ValueBeyond> values_beyond_material(const CaseFile& file, continuum::Parameters parameters);
+
 /// What is wrong with a material's file: for what a case that names it would be refused.
 std::vector<Problem> problems_of_material(const std::string& path);
 

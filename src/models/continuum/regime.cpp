@@ -54,6 +54,8 @@ void add_range_of_material(const Setup& setup, std::vector<RegimeLine>& lines) {
                    fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", range.name,
                                range.min_diameter / millimetre, range.max_diameter / millimetre),
                    !(p.grains.diameter >= range.min_diameter && p.grains.diameter <= range.max_diameter)});
+  for (const ValueBeyond& beyond : range.beyond)
+    lines.push_back({beyond.key, beyond.value, fmt::format("the range of {} is {}", range.name, beyond.range), true});
   const double weight = weight_of_bed(setup);
   lines.push_back({"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
                    fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", range.name,

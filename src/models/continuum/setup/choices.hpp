@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/parameter.hpp"
 #include "models/continuum/pairs/kernels/kernel.hpp"
@@ -33,11 +34,17 @@ enum class GrainMaterial { glass_beads, sand, wheat, maize, soybean, rapeseed, p
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
+/// A value that a case sets beyond the range of its material, and that range, as they are written.
+struct ValueBeyond {
+  std::string key, value, range;
+};
+
 /// Where the values of a material hold.
 struct MaterialRange {
   std::string name = {};                                                            ///< the material's; empty: none
   double min_diameter = 0, max_diameter = std::numeric_limits<double>::infinity();  ///< of its grains, m
   double max_pressure = std::numeric_limits<double>::infinity();                    ///< Pa
+  std::vector<ValueBeyond> beyond = {};                                             ///< but for the diameter
 };
 
 inline constexpr RenamedKey renamed_keys[] = {
