@@ -39,12 +39,12 @@ double number_at(std::string_view bytes, std::size_t offset) {
 }
 
 std::vector<Triangle> from_binary(std::string_view content, std::string_view name) {
-  const std::size_t count = integer_at(content, 80), whole = (content.size() - head) / of_triangle;
-  if (content.size() != head + of_triangle * count)
+  const std::size_t count = integer_at(content, 80), expected = head + of_triangle * count;
+  if (content.size() != expected)
     refuse(name, 0,
-           fmt::format("is no ASCII STL file, and as a binary one it says that it holds {} triangles, but ends {} "
-                       "triangle {}",
-                       count, whole < count ? "within" : "after", whole < count ? whole + 1 : count),
+           fmt::format("is no ASCII STL file, and as a binary one {}: {} triangles take {} bytes, and it has {}",
+                       content.size() < expected ? "it is cut off" : "it goes on after its end", count, expected,
+                       content.size()),
            "an STL file, ASCII or binary");
   std::vector<Triangle> triangles(count);
   for (std::size_t t = 0; t < count; ++t)
@@ -145,8 +145,10 @@ std::vector<Triangle> from_text(std::string_view content, std::string_view name)
 
 std::vector<Triangle> stl_triangles(std::string_view content, std::string_view name) {
   const bool binary = content.size() >= head && content.size() == head + of_triangle * integer_at(content, 80);
+  // A binary one that is cut off may begin so too, but has zeros: the last byte of its count at least.
+  const bool text = content.substr(0, 5) == "solid" && content.find('\0') == std::string_view::npos;
   std::vector<Triangle> triangles;
-  if (!binary && content.substr(0, 5) == "solid")
+  if (!binary && text)
     triangles = from_text(content, name);
   else if (content.size() >= head)
     triangles = from_binary(content, name);

@@ -74,12 +74,16 @@ TEST(Stl, FaultsNameTheLineAndTheTriangle) {
   EXPECT_THAT(refusal("a text"), HasSubstr("no STL file"));
 }
 
-TEST(Stl, ABinaryFileOfTheWrongLengthIsRefused) {
-  std::string bytes = binary(stl_triangles(two, "a.stl"));
-  bytes.replace(0, 5, "other");
-  EXPECT_EQ(refusal(bytes), "taken");
-  EXPECT_THAT(refusal(bytes.substr(0, bytes.size() - 30)), HasSubstr("2 triangles, but ends within triangle 2"));
-  EXPECT_THAT(refusal(bytes + "x"), HasSubstr("ends after triangle 2"));
+TEST(Stl, ABinaryFileOfTheWrongLengthIsRefusedWhateverItBeginsWith) {
+  for (const std::string head : {"other", "solid"}) {
+    std::string bytes = binary(stl_triangles(two, "a.stl"));
+    bytes.replace(0, 5, head);
+    EXPECT_EQ(refusal(bytes), "taken");
+    EXPECT_THAT(refusal(bytes.substr(0, bytes.size() - 30)),
+                HasSubstr("it is cut off: 2 triangles take 184 bytes, and it has 154"));
+    EXPECT_THAT(refusal(bytes + "x"),
+                HasSubstr("it goes on after its end: 2 triangles take 184 bytes, and it has 185"));
+  }
 }
 
 }  // namespace
