@@ -62,6 +62,19 @@ class Ensemble(ProgramTest):
         self.assertEqual(band["front_speed_mean [v_s]"], own["front_speed [v_s]"])
         self.assertNotEqual(band["front_speed_mean [v_s]"], both["front_speed_mean [v_s]"])
 
+    def test_a_mean_says_of_how_many_members_where_some_lack_the_quantity(self):
+        case = ("ensemble", "case.toml", "--members", 2, "--out", "e", "--set", "run.end=2 ms")
+        self.assertNotIn(" of 2)", self.talus(*case).stdout)
+        summary = self.members("e")[0] / "summary.json"
+        said = json.loads(summary.read_text())
+        del said["quantities"]["front_speed_max"]
+        summary.write_text(json.dumps(said))
+        lines = self.talus(*case, "--gather").stdout.splitlines()
+        [line] = [line for line in lines if line.startswith("front_speed_max ")]
+        [other] = [line for line in lines if line.startswith("front_speed_min ")]
+        self.assertTrue(line.endswith(" (1 of 2)"), line)
+        self.assertNotIn("of 2", other)
+
     def test_members_of_a_bed_differ_by_its_disorder(self):
         few = ("--set", "gate.opens=from-the-start", "--set", "run.end=1 ms")
         case = PROJECT / "cases/yuu2011-section-vacuum.toml"

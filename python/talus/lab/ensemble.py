@@ -79,6 +79,14 @@ class Group:
                     tables.setdefault(path.stem, []).append(table)
         return {name: _bands(of_members) for name, of_members in sorted(tables.items())}
 
+    def text_of(self, name):
+        """Of a quantity "mean ± deviation", and of how many members where not all that are done have it; else "-"."""
+        spread = self.spreads.get(name)
+        if not (spread and spread.values):
+            return "-"
+        count = len(spread.values)
+        return str(spread) if count == len(self.done) else f"{spread} ({count} of {len(self.done)})"
+
     def tables(self):
         """Texts by path: members.csv, quantities.csv and bands_TABLE.csv."""
         done = {run.folder: run.summary for run in self.done}
@@ -222,8 +230,7 @@ def sweep_text(groups):
     units = all_quantities(groups)
     names = ["", *(name if unit == "1" else _with_unit(name, unit) for name, unit in units.items())]
     first = max(map(len, names))
-    columns = [[group.name, *(str(group.spreads[name]) if name in group.spreads and group.spreads[name].values else "-"
-                              for name in units)] for group in groups]
+    columns = [[group.name, *(group.text_of(name) for name in units)] for group in groups]
     widths = [max(map(len, column)) for column in columns]
     blocks, begin = [], 0
     while begin < len(columns):
