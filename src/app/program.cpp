@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -61,7 +60,6 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
 
 int talus::app::run_command_line(int argc, char** argv, const Ranks& ranks) {
   using talus::ExitStatus;
-  std::signal(SIGXFSZ, SIG_IGN);  // beyond a limit of the size of files, writing fails with a message
   CLI::App app("Talus simulates granular material and the air around it.", "talus");
   app.set_version_flag("--version", fmt::format("talus {} ({})", talus::program_version(), talus::program_revision()));
   app.require_subcommand(1);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t piece = std::size_t{1} << 20;  // bytes at a time, of a file's way to the disk
 
-/// Handles close what they opened. What could not be closed, as a file beyond a limit of size, the library would try to
-/// close once more at the end of the program, and crash.
+/// Handles close what they opened. A file for which the memory had no room the library would try to close once more at
+/// the end of the program, and crash.
 [[maybe_unused]] const herr_t without_cleanup = H5dont_atexit();
 
 /// Keeps the library from printing its stack of errors. The setting is each thread's own, so every member of Reader and

@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, checkpoints, rows, state, tree
+from program import CASE, PROJECT, ProgramTest, bits, checkpoints, rows, state, tree
 
 # Snapshots of 15 kB after every step, 160 of them.
 FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
@@ -51,12 +51,6 @@ class Disk(ProgramTest):
         self.talus("run", "case.toml", "--out", "disk/r", "--resume", *FILLING)
         self.assertEqual(bits(disk / "r"), whole)
         self.assertEqual(json.loads((disk / "r/summary.json").read_text())["status"], "done")
-
-    def test_a_limit_of_the_size_of_files(self):
-        command = f'ulimit -f 4; exec "{PROGRAM}" run case.toml --out r'
-        done = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertRegex(done.stderr, r"talus: r/\S+: .*File too large")
 
     def test_disk_that_is_full_from_the_start(self):
         disk = self.mount("size=1m")
