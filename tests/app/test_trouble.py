@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from program import CASE, PROJECT, ProgramTest, bits, checkpoints, rows, state, tree
+from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, checkpoints, rows, state, tree
 
 # Snapshots of 15 kB after every step, 160 of them.
 FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
@@ -51,6 +51,16 @@ class Disk(ProgramTest):
         self.talus("run", "case.toml", "--out", "disk/r", "--resume", *FILLING)
         self.assertEqual(bits(disk / "r"), whole)
         self.assertEqual(json.loads((disk / "r/summary.json").read_text())["status"], "done")
+
+    def test_memory_without_room(self):
+        """Files are built in /dev/shm."""
+        alone = ["unshare", "-m", "bash", "-c", 'mount -t tmpfs -o size=4k tmpfs /dev/shm || exit 77; exec "$@"', "bash"]
+        done = subprocess.run([*alone, PROGRAM, "run", "case.toml", "--out", "r"], cwd=self.folder, capture_output=True,
+                              text=True, check=False)
+        if done.returncode in (1, 77):
+            self.skipTest(f"no file system can be mounted for this test: {done.stderr.strip()}")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr, r"talus: r/\S+: cannot be built in memory: .*No space left on device")
 
     def test_disk_that_is_full_from_the_start(self):
         disk = self.mount("size=1m")
