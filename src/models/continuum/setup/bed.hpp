@@ -17,6 +17,7 @@
 namespace talus::continuum {
 
 struct Parameters;
+struct BedWalls;
 
 /// The particles of bed.file. SI; columns that the file does not have are empty.
 struct GivenBed {
@@ -35,6 +36,9 @@ struct BedRegion {
   std::optional<double> left, right, front, rear;
   std::optional<std::array<double, 3>> inside;
   std::optional<std::array<double, 3>> velocity;
+
+  /// The walls of the vessel between which it lies. Not a key: Layout finds them (bed_walls.hpp).
+  std::shared_ptr<const BedWalls> walls = nullptr;
 };
 
 struct BedParameters : BedRegion {
@@ -76,20 +80,23 @@ void for_each_parameter_of_region(Visit&& visit, Key&& key, Region& bed, bool op
   visit(Parameter{key("bottom"), dimension::length, at_least(0),
                   "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
         bed.bottom);
-  visit(Parameter{key("left"), dimension::length, at_least(0),
-                  "start of the bed along x; left out: the left face, or the least x of a [[vessel]] that stands apart "
-                  "from the left and the right face"},
-        bed.left);
+  visit(
+      Parameter{
+          key("left"), dimension::length, at_least(0),
+          "start of the bed along x; left out: the left face, or the least x of the walls of a [[vessel]] between "
+          "which it lies"},
+      bed.left);
   visit(Parameter{key("right"), dimension::length, above(0),
-                  "end of the bed along x; left out: the right face, or the largest x of such a vessel"},
+                  "end of the bed along x; left out: the right face, or the largest x of such walls"},
         bed.right);
   visit(
-      Parameter{key("front"), dimension::length, at_least(0),
-                "start of the bed along y; left out: the front face, or the least y of a [[vessel]] that stands apart "
-                "from the front and the rear face"},
+      Parameter{
+          key("front"), dimension::length, at_least(0),
+          "start of the bed along y; left out: the front face, or the least y of the walls of a [[vessel]] between "
+          "which it lies"},
       bed.front);
   visit(Parameter{key("rear"), dimension::length, above(0),
-                  "end of the bed along y; left out: the rear face, or the largest y of such a vessel"},
+                  "end of the bed along y; left out: the rear face, or the largest y of such walls"},
         bed.rear);
   visit(Parameter{key("inside"),
                   dimension::length,

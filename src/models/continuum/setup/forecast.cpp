@@ -186,7 +186,7 @@ Parameters sample(const Layout& layout, double particles) {
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
   q.inlets.clear(), q.removal = {}, q.beds.clear(), q.levels = {}, q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
-  q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
+  q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.walls = nullptr, q.bed.file.clear();
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
   q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;
   q.bed.spacing = std::cbrt(lattice.spacing.x * lattice.spacing.y * lattice.spacing.z);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "models/continuum/setup/bed_walls.hpp"
 #include "models/continuum/setup/vessel_bed.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -30,7 +31,8 @@ bool is_side_of_box(const Parameters& p, int axis, double place) {
 }
 
 /// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
-/// faces, or the vessel where it stands apart from both, or its upright box where a face cuts it.
+/// walls of the vessel between which the bed lies. Where grains see none the faces, or the vessel where it stands apart
+/// from both, or its upright box where a face cuts it.
 Extent bed_along(const Parameters& p, int axis, double width, const std::optional<double>& first,
                  const std::optional<double>& last) {
   if (p.bed.given) return {p.bed.given->low[axis] - 0.5 * p.bed.spacing, p.bed.given->high[axis] + 0.5 * p.bed.spacing};
@@ -40,6 +42,11 @@ Extent bed_along(const Parameters& p, int axis, double width, const std::optiona
     const bool low = around.low[axis] > 0, high = around.high[axis] < width;
     if (low && (high || is_side_of_box(p, axis, around.low[axis]))) extent.low = around.low[axis];
     if (high && (low || is_side_of_box(p, axis, around.high[axis]))) extent.high = around.high[axis];
+  }
+  if (p.bed.walls) {
+    const auto side = static_cast<std::size_t>(2 * axis);
+    extent.low = std::max(extent.low, p.bed.walls->ends[side].value_or(extent.low));
+    extent.high = std::min(extent.high, p.bed.walls->ends[side + 1].value_or(extent.high));
   }
   return {first.value_or(extent.low), last.value_or(extent.high)};
 }
@@ -212,7 +219,7 @@ struct Bed {
 Layout::Layout(const Parameters& parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
 
 Layout::Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary)
-    : given(std::move(parameters)),
+    : given(with_walls_of_beds(std::move(parameters), same_boundary)),
       boundary(std::move(same_boundary)),
       vessel_outlets(outlets_of_vessel(given)),
       outlet(outlet_of(given, vessel_outlets)),

@@ -90,8 +90,8 @@ double bed_count(const Layout& layout);
 
 // What follows from the keys alone, for the layout and for the check of a case that may have none.
 
-/// Where the lattice of the bed begins and ends along x and y, and its bottom, m: the box, or the vessel where it
-/// stands apart from the faces of the box.
+/// Where the lattice of the bed begins and ends along x and y, and its bottom, m: the box, or the walls of the vessel
+/// between which the bed lies; where no Layout has found these, the whole vessel if it stands apart from the faces.
 struct Extent {
   double low, high;
 };

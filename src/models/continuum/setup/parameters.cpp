@@ -142,12 +142,12 @@ void check_inside(const Layout& layout, const Add& add) {
                              along_x.low / millimetre, along_x.high / millimetre, along_y.low / millimetre,
                              along_y.high / millimetre, bed_bottom(p) / millimetre));
   }
-  const bool begins = p.vessel.empty() ? bed_count(layout) > 0 : !VesselPlaces(layout).seeds().empty();
-  if (!begins)
-    add(p.bed.inside ? "bed.inside" : "bed.height",
-        p.bed.inside ? "sees no place for a particle: walls are too near"
-                     : "leaves no particle: the middle of the bed's top lies in a wall",
-        p.bed.inside ? "a place farther from walls, or a smaller bed.spacing" : "bed.inside, a place within the bed");
+  if (p.vessel.empty() ? bed_count(layout) > 0 : !VesselPlaces(layout).seeds().empty()) return;
+  if (p.bed.inside)
+    return add("bed.inside", "sees no place for a particle: walls are too near",
+               "a place farther from walls, or a smaller bed.spacing");
+  add(p.bed.mass ? "bed.mass" : "bed.height", "leaves no particle: the middle of the bed's top lies in a wall",
+      "bed.inside, a place within the bed");
 }
 
 void check_bed(const Parameters& p, std::vector<Problem>& problems) {

@@ -41,14 +41,17 @@ Layer layer_of_lattice(const Parameters& p, const Lattice& lattice) {
       }
     }
   const VesselBounds around = bounds_of_vessel(p);
+  Parameters without_walls = p;  // found from the middle that they leave where it is
+  without_walls.bed.walls = nullptr;
+  const Lattice whole = lattice_of(without_walls);
   std::array<std::int64_t, 2> n{};
   for (int axis = 0; axis < 2; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const double low = lattice.corner[axis], extent = static_cast<double>(lattice.count[a]) * lattice.spacing[axis];
+    const double low = whole.corner[axis], extent = static_cast<double>(whole.count[a]) * whole.spacing[axis];
     const double from = std::max(low, around.low[axis]), to = std::min(low + extent, around.high[axis]);
     const double middle = from < to ? 0.5 * (from + to) : low + 0.5 * extent;
-    n[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>((middle - low) / lattice.spacing[axis]), 0,
-                                    lattice.count[a] - 1);
+    const double places = (middle - lattice.corner[axis]) / lattice.spacing[axis];
+    n[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>(places), 0, lattice.count[a] - 1);
   }
   layer.middle = static_cast<std::uint32_t>(n[1] * lattice.count[0] + n[0]);
   return layer;
