@@ -44,7 +44,7 @@ bool is_between_faces(const Layout& up_to_top) {
 std::int64_t max_layers(const Layout& layout) {
   const Parameters& p = layout.given;
   const bool sized = p.bed.spacing > 0 && p.box.width > 0 && p.box.depth > 0 && p.box.height > 0;
-  if (!sized) return 0;
+  if (!sized || has_unread_file(p)) return 0;
   const auto fits = [&](double layers) {
     return layers >= 1 && layers < max_positions_of_filling &&
            lattice_of(with_layers(p, static_cast<std::int64_t>(layers))).positions() <= max_positions_of_filling;
@@ -99,7 +99,7 @@ Layout with_level(const Layout& layout) {
 
 std::vector<Problem> check_mass(const Layout& layout) {
   const Parameters& p = layout.given;
-  if (!p.bed.mass) return {};
+  if (!p.bed.mass || has_unread_file(p)) return {};
   if (!(p.bed.height > 0)) {
     const double bottom = bed_bottom(p) / millimetre, top = p.box.height / millimetre;
     if (layers_up_to(p, p.box.height) < 1)

@@ -124,9 +124,7 @@ bool check_extent(const Parameters& p, int axis, const Add& add) {
 /// Whether the bed begins somewhere.
 void check_inside(const Layout& layout, const Add& add) {
   const Parameters& p = layout.given;
-  // Of a file that cannot be read nothing follows.
-  for (const VesselPart& part : p.vessel)
-    if (part.shape == VesselShape::stl && !part.drawn) return;
+  if (has_unread_file(p)) return;
   if (p.bed.inside) {
     const auto& x = *p.bed.inside;
     const bool inside =

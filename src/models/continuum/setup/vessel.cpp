@@ -195,6 +195,11 @@ VesselBounds bounds_of_vessel(const Parameters& p) {
   return all;
 }
 
+bool has_unread_file(const Parameters& p) {
+  return std::any_of(p.vessel.begin(), p.vessel.end(),
+                     [](const VesselPart& v) { return v.shape == VesselShape::stl && !v.drawn; });
+}
+
 bool is_moving(const VesselPart& v) {
   return v.spin != 0 || v.slide != 0 || v.belt;
 }

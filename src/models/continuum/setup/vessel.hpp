@@ -270,6 +270,9 @@ bool is_moving(const VesselPart& part);
 /// the circle than a fiftieth of bed.spacing, and whose area of cross-section is the circle's.
 std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
 
+/// Whether the vessel has a file that cannot be read: nothing follows of where its walls are.
+bool has_unread_file(const Parameters& parameters);
+
 /// The box around a part, m, and around the vessel, without making its surface.
 VesselBounds bounds_of(const Parameters& parameters, std::size_t part);
 VesselBounds bounds_of_vessel(const Parameters& parameters);

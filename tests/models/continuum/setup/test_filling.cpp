@@ -54,6 +54,13 @@ TEST(BedMass, GoesUpFromLevelWalls) {
   EXPECT_THAT(problems[0].what, HasSubstr("no layer has room"));
 }
 
+TEST(BedMass, NothingFollowsOfAFileThatCannotBeRead) {
+  Parameters p = hopper_in_a_box();
+  p.vessel = {named("silo", VesselShape::stl)};
+  p.bed.mass = 1e6;
+  EXPECT_THAT(check_mass(with_level(Layout(p))), IsEmpty());
+}
+
 TEST(BedMass, EndsAtTheTopOfAVesselThatAPlaneOfSymmetryCuts) {
   Parameters p = column(10, 16, 0, 40);
   p.box.left = FaceKind::symmetry, p.gate.opens = GateOpens::when_settled;
