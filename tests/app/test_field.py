@@ -99,7 +99,7 @@ class Beds(FieldTest):
         x, y, z = start.position.T
         self.assertLess(np.hypot(x - 0.04, y - 0.04).max(), 0.025)
         self.assertGreater(z.min(), 0.08)
-        self.assertAlmostEqual(len(x) / 1687, 1, delta=0.001)
+        self.assertAlmostEqual(len(x) / 1739, 1, delta=0.001)
 
     def test_a_bed_left_of_a_sluice_is_told_what_its_left_is(self):
         problem, = self.problems("check", "sluice.toml")
