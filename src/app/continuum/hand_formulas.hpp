@@ -20,7 +20,7 @@ double discharge_by_hand(const continuum::Layout& layout, const continuum::Vesse
 /// Mass that all outlets pass at these rates while their gates are open, kg. \param until from the opening of the gate,
 /// s
 double discharged_by_hand(const continuum::Layout& layout, double until);
-/// When it comes to a mass, s from the opening of the gate; nan: never.
+/// When it comes to a mass, > 0, s from the opening of the gate; nan: never.
 double time_of_discharge_by_hand(const continuum::Layout& layout, double mass);
 
 /// The angle of internal friction of the law, rad (physics/granular/friction_angle.hpp); 30 degrees where it has none.
@@ -30,7 +30,8 @@ double internal_friction_by_hand(const continuum::Parameters& parameters,
                                  granular::FrictionTest test = granular::FrictionTest::plane_strain);
 
 /// K of a bed that settles without strain to the sides, under the weight of its depth: of a point of the law
-/// critical-state; nan of other laws. Below yield it is (1 - 2G/3B)/(1 + 4G/3B), and larger where grains yield.
+/// critical-state; nan of other laws, and where it does not bear that. Below yield it is (1 - 2G/3B)/(1 + 4G/3B), and
+/// larger where grains yield.
 double pressure_ratio_at_rest(const continuum::Layout& layout);
 
 /// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties

@@ -140,18 +140,19 @@ std::shared_ptr<const Setup> filled(const Setup& setup, double end) {
 }
 
 /// So many particles on the walls that are below inlets, layer by layer, the nearest first: as grains lie on a belt or
-/// a chute; nothing where there are none. \pre there is a vessel
+/// a chute; nothing where there are none.
 std::shared_ptr<const Setup> laid_on_walls(const Setup& setup, double count) {
   constexpr double max_columns = 1e6;
   struct Column {
     double x, y, floor, way;  // way: to the nearest inlet, m
   };
   Parameters p = setup.given;
+  if (p.vessel.empty()) return nullptr;
   const SiloShape shape(setup);
   const bool is_held = std::all_of(p.inlets.begin(), p.inlets.end(), [&](const continuum::Inlet& inlet) {
     return shape.upright_at({inlet.centre[0], inlet.centre[1], inlet.centre[2]}) != nullptr;
   });
-  if (is_held || p.vessel.empty()) return nullptr;
+  if (is_held) return nullptr;
   const double spacing = p.bed.spacing;
   double top = 0;
   for (const continuum::Inlet& inlet : p.inlets) top = std::max(top, inlet.centre[2]);

@@ -26,6 +26,7 @@ namespace talus::app {
 
 namespace {
 
+/// m^2
 double area_below(const std::vector<Triangle>& triangles, double height) {
   double sum = 0;
   for (const Triangle& t : triangles) {

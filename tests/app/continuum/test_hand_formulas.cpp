@@ -176,6 +176,9 @@ TEST(PressureRatioAtRest, IsThatOfTheModuliBelowYield) {
   law.static_friction = 0.8;
   p.law = law;
   EXPECT_NEAR(pressure_ratio_at_rest(continuum::Layout(p)), 1 / 3.0, 0.01);
+  law.bulk_modulus = 10, law.shear_modulus = 6;
+  p.law = law;
+  EXPECT_NO_THROW(pressure_ratio_at_rest(continuum::Layout(p))) << "far too soft";
 }
 
 TEST(MassFlowByHand, IsOfTheConeAndItsWall) {
